@@ -163,7 +163,7 @@ class Renderer::RenderThread {
     if (renderer == nullptr) {
       renderer = std::make_unique<raster::RasterBatchRenderer>(base::ThreadTeam::DefaultThreads());
     }
-    started.set_value(context != nullptr ? context->renderer_name() : raster::kRasteriserName);
+    started.set_value(context != nullptr ? context->renderer_name() : raster::RasteriserName());
     Serve(*renderer);
     renderer.reset();
     EndAll();

@@ -7,8 +7,6 @@
 #include <cstring>
 #include <limits>
 
-#include "gsv/rendering/raster/raster_texture.h"
-#include "gsv/rendering/raster/scan.h"
 #include "gsv/rendering/scene/antialiasing.h"
 
 namespace gsv::rendering::raster {
@@ -16,7 +14,6 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr int kTileWidth = 32, kTileHeight = 16;
 // The ground is moved back: its 1/w (w is the distance along the view) is multiplied by this
 // factor, so that objects on the ground hide it.
 constexpr float kGroundBack = 1 - 2e-4f;
@@ -52,9 +49,8 @@ model::Image ImageRenderer::Draw(const CameraView& view, const RenderList& rende
   SetBackground({view, render_list_id, render_list.moved_count(), shadow != nullptr, block});
   FindVisible(view, render_list);
   Cover(view, render_list);
-  const LightModel light(background_.block, shadow);
-  Light(light, shadow, team);
-  Blend(view, render_list, light);
+  Light(shadow, team);
+  Blend(view, render_list, shadow);
   return Smooth();
 }
 
@@ -99,11 +95,11 @@ model::Image ImageRenderer::Smooth() const {
 
 void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
   width_ = view.parameters.width, height_ = view.parameters.height;
-  stride_ = width_ + 8;
+  stride_ = width_ + kMaxLanes;
   const std::size_t pixels = At(0, height_);
-  inverse_w_.assign(pixels, static_cast<float>(1 / view.parameters.far));
-  nearest_.assign(pixels, 0);
-  rgba_.resize(static_cast<std::size_t>(width_) * height_ + 8);
+  inverse_w_.assign(pixels + kMaxLanes, static_cast<float>(1 / view.parameters.far));
+  nearest_.assign(pixels + kMaxLanes, 0);
+  rgba_.resize(static_cast<std::size_t>(width_) * height_ + kMaxLanes);
   triangles_.clear();
   drawn_.clear();
   is_still_.clear();
@@ -116,6 +112,19 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
     forward_[i] = block.view_forward[i] - block.view_right[i] - block.view_down[i] +
                   0.5f * right_[i] + 0.5f * down_[i];
   }
+  in_progress_ = {width_,
+                  height_,
+                  stride_,
+                  inverse_w_.data(),
+                  nearest_.data(),
+                  rgba_.data(),
+                  nullptr,
+                  forward_,
+                  right_,
+                  down_,
+                  static_cast<float>(1 / view.parameters.near)};
+  if (loops_.empty()) loops_.push_back(make_loops_());
+  for (const auto& loops : loops_) loops->Begin(in_progress_);
   rasteriser_.Begin(width_, height_, view.parameters.near, block.clip_from_relative,
                     Rasteriser::Rows::kDownwards);
 }
@@ -162,8 +171,7 @@ void ImageRenderer::Cover(const CameraView& view, const RenderList& render_list)
     is_still_.push_back(render_list.IsStill(render_list.items()[seen.item].body) ? 1 : 0);
     body_of_.push_back(render_list.items()[seen.item].body);
     visual_of_.push_back(render_list.items()[seen.item].visual);
-    CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
-              static_cast<float>(1 / view.parameters.near));
+    CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1));
   }
 }
 
@@ -194,43 +202,16 @@ bool ImageRenderer::IsHidden(const CameraView& view, const Vector3& centre, doub
   return true;
 }
 
-void ImageRenderer::CoverWith(std::uint32_t number, float nearest) {
+void ImageRenderer::CoverWith(std::uint32_t number) {
   const Drawn& drawn = drawn_[number];
-  const DrawGroup& group = *drawn.group;
-  const auto* holes = group.blending == Blending::kAlphaMask
-                          ? static_cast<const RasterTexture*>(group.base_colour.get())
-                          : nullptr;
-  const F8 back = Splat(group.ground ? kGroundBack : 1.0f);
-  rasteriser_.ForEachTriangle(
-      drawn, number, group.double_sided, [&](const Triangle& t, const Box& box, bool crosses_near) {
-        const auto id = static_cast<std::int32_t>(triangles_.size() + 1);
-        bool is_seen = false;
-        Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
-          const std::size_t at = At(x, y);
-          const F8 old = Load(&inverse_w_[at]);
-          I8 visible = covered & (inverse_w * back > old);
-          if (crosses_near) visible &= inverse_w <= Splat(nearest);
-          if (Bits(visible) == 0) return;
-          if (holes != nullptr) {
-            visible &=
-                Solid(t, *drawn.mesh, *holes, 0, Splat(static_cast<float>(x) - t.x0) + Steps(),
-                      static_cast<float>(y) - t.y0);
-          }
-          Store(&inverse_w_[at], Select(visible, inverse_w * back, old));
-          StoreInt(&nearest_[at], SelectInt(visible, SplatInt(id), LoadInt(&nearest_[at])));
-          is_seen = true;
-        });
-        if (is_seen) triangles_.push_back(t);
-      });
-}
-
-F8x3 ImageRenderer::RayAt(int x, int y) const {
-  const F8 px = Splat(static_cast<float>(x)) + Steps();
-  const float py = static_cast<float>(y);
-  const auto part = [&](int i) {
-    return Fma(Splat(right_[i]), px, Splat(forward_[i] + down_[i] * py));
-  };
-  return {part(0), part(1), part(2)};
+  PixelLoops& loops = *loops_.front();
+  const float back = drawn.group->ground ? kGroundBack : 1.0f;
+  rasteriser_.ForEachTriangle(drawn, number, drawn.group->double_sided,
+                              [&](const Triangle& t, const Box& box, bool crosses_near) {
+                                const auto id = static_cast<std::uint32_t>(triangles_.size() + 1);
+                                if (loops.Cover(drawn, t, box, crosses_near, id, back))
+                                  triangles_.push_back(t);
+                              });
 }
 
 void ImageRenderer::SetBackground(const Background& background) {
@@ -248,19 +229,21 @@ void ImageRenderer::SetBackground(const Background& background) {
   tiles_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), {});
 }
 
-void ImageRenderer::Light(const LightModel& light, const SunShadow* shadow,
-                          base::ThreadTeam* team) {
+void ImageRenderer::Light(const SunShadow* shadow, base::ThreadTeam* team) {
   const std::size_t threads = team == nullptr ? 1 : static_cast<std::size_t>(team->threads());
-  if (shadings_.size() < threads) shadings_.resize(threads);
+  while (loops_.size() < threads) {
+    loops_.push_back(make_loops_());
+    loops_.back()->Begin(in_progress_);
+  }
+  const VisibleTriangles visible{triangles_, drawn_};
   std::atomic<int> next_row{0};
   const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Shading& shading = shadings_[i];
-      shading.surface_of.clear();
-      shading.surfaces.clear();
+      bool has_begun = false;
       for (int y = 0; (y = next_row++ * kTileHeight) < height_;) {
-        if (shading.surface_of.empty()) shading.surface_of.assign(triangles_.size(), -1);
-        for (int x = 0; x < width_; x += kTileWidth) LightTile(light, shadow, x, y, shading);
+        if (!has_begun) loops_[i]->BeginShading(visible, background_.block, shadow);
+        has_begun = true;
+        for (int x = 0; x < width_; x += kTileWidth) LightTile(*loops_[i], shadow, x, y);
       }
     }
   };
@@ -268,8 +251,7 @@ void ImageRenderer::Light(const LightModel& light, const SunShadow* shadow,
   team->ParallelFor(threads, 1, work);
 }
 
-void ImageRenderer::LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
-                              Shading& shading) {
+void ImageRenderer::LightTile(PixelLoops& loops, const SunShadow* shadow, int x0, int y0) {
   const int x1 = std::min(x0 + kTileWidth, width_), y1 = std::min(y0 + kTileHeight, height_);
   const int columns = (width_ + kTileWidth - 1) / kTileWidth;
   Tile& tile = tiles_[static_cast<std::size_t>(y0 / kTileHeight * columns + x0 / kTileWidth)];
@@ -280,12 +262,9 @@ void ImageRenderer::LightTile(const LightModel& light, const SunShadow* shadow, 
   };
   const bool is_still = is_repeated_ && IsStillTile(x0, y0, x1, y1);
   if (tile.is_kept && is_still && !is_shaded_by_movers()) return;
-  const TileBox box = BoxOfTile(x0, y0, x1, y1);
-  const Lamps lamps = box.is_empty ? Lamps() : light.Reaching(box.min, box.max);
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; x += 8) Light(light, lamps, x, y, shading);
-  }
-  if (is_still) tile.in_shadow = InShadow(box);
+  const TileToShade to_shade = loops.TileAt(x0, y0, x1, y1);
+  loops.Shade(to_shade);
+  if (is_still) tile.in_shadow = InShadow(to_shade);
   tile.is_kept = is_still && !is_shaded_by_movers();
 }
 
@@ -308,7 +287,7 @@ bool ImageRenderer::IsStillTile(int x0, int y0, int x1, int y1) const {
 }
 
 // Returns the texels of the shadow map that points of the tile may look up.
-ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
+ShadowRegion::Rectangle ImageRenderer::InShadow(const TileToShade& box) const {
   // The maximum distance, in texels, between a point and the texels that it looks up: the
   // displacement along the normal plus the width of the filter.
   constexpr float kBeside = 4;
@@ -334,128 +313,26 @@ ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
           texel(max[1], kBeside)};
 }
 
-ImageRenderer::TileBox ImageRenderer::BoxOfTile(int x0, int y0, int x1, int y1) const {
-  F8 most = Splat(0), least = Splat(1e30f);  // the extremes of 1/w in the tile
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; x += 8) {
-      const I8 seen = (LoadInt(&nearest_[At(x, y)]) != 0) & (IntSteps() < SplatInt(x1 - x));
-      const F8 inverse_w = Load(&inverse_w_[At(x, y)]);
-      most = Max(most, Select(seen, inverse_w, most));
-      least = Min(least, Select(seen, inverse_w, least));
-    }
-  }
-  float nearest = most[0], farthest = least[0];
-  for (int lane = 1; lane < 8; ++lane) {
-    nearest = std::max(nearest, most[lane]);
-    farthest = std::min(farthest, least[lane]);
-  }
-  if (nearest == 0) return {};
-  constexpr double kMax = 1e30;
-  TileBox box{false, {kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
-  Vector3 &min = box.min, &max = box.max;
-  for (const int x : {x0, x1}) {
-    for (const int y : {y0, y1}) {
-      for (const float inverse_w : {nearest, farthest}) {
-        const auto part = [&](int i) {
-          const double px = x - 0.5, py = y - 0.5;
-          return (forward_[i] + right_[i] * px + down_[i] * py) / static_cast<double>(inverse_w);
-        };
-        const Vector3 p{part(0), part(1), part(2)};
-        min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-        max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-      }
-    }
-  }
-  return box;
-}
-
-void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, int y,
-                          Shading& shading) {
-  const std::size_t at = At(x, y);
-  const I8 ids = LoadInt(&nearest_[at]);
-  const F8x3 ray = RayAt(x, y);
-  const int in_image = x + 8 <= width_ ? 0xff : (1 << (width_ - x)) - 1;
-  const I8 used = (ids != 0) & (IntSteps() < SplatInt(width_ - x));
-  int left = Bits(used);
-  const bool sky = left != in_image;
-  F8x3 colour = Splat(0, 0, 0);
-  Surfaces surfaces;
-  surfaces.number = SplatInt(0);
-  if (left != 0) {
-    bool is_first = true;
-    while (left != 0) {
-      const int lane = __builtin_ctz(static_cast<unsigned>(left));
-      const std::uint32_t id = nearest_[at + static_cast<std::size_t>(lane)];
-      const I8 mask = ids == SplatInt(static_cast<std::int32_t>(id));
-      const Triangle& triangle = triangles_[id - 1];
-      const Drawn& drawn = drawn_[triangle.drawn];
-      std::int32_t& place = shading.surface_of[id - 1];
-      if (place < 0) {
-        place = static_cast<std::int32_t>(shading.surfaces.size());
-        shading.surfaces.push_back(SurfaceOf(drawn, triangle));
-      }
-      FillIn(drawn, triangle, shading.surfaces[static_cast<std::size_t>(place)], x, y, mask,
-             is_first, ray, surfaces);
-      is_first = false;
-      left &= ~Bits(mask);
-    }
-    colour = light.Colour(surfaces, ray, lamps, used);
-  }
-  if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
-  const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
-  std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
-  if (in_image == 0xff) {
-    StoreInt(to, rgba);
-  } else {
-    // The last pixels of a row: the next row must not be written, not even with its own values,
-    // because another thread may draw it now.
-    std::array<std::uint32_t, 8> last;
-    StoreInt(last.data(), rgba);
-    std::copy_n(last.begin(), width_ - x, to);
-  }
-}
-
 void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
-                          const LightModel& light) {
-  const F8 near = Splat(static_cast<float>(1 / view.parameters.near));
-  const int columns = (width_ + kTileWidth - 1) / kTileWidth;
+                          const SunShadow* shadow) {
+  if (transparent_.empty()) return;
+  is_blended_.assign(tiles_.size(), 0);
+  in_progress_.is_blended = is_blended_.data();
+  PixelLoops& loops = *loops_.front();
+  loops.Begin(in_progress_);
+  loops.BeginShading({}, background_.block, shadow);
   for (const Seen& seen : transparent_) {
     const Drawn drawn =
         DrawnItem(render_list, seen.item, *seen.level, view.world_from_camera.position);
-    // Most items are so small that few lamps reach them.
-    const Vector3 centre = render_list.placed()[seen.item].centre - view.world_from_camera.position;
-    const double radius = render_list.items()[seen.item].radius;
-    const Vector3 to_corner{radius, radius, radius};
-    const Lamps lamps = light.Reaching(centre - to_corner, centre + to_corner);
+    loops.BeginBlending(drawn,
+                        render_list.placed()[seen.item].centre - view.world_from_camera.position,
+                        render_list.items()[seen.item].radius);
     rasteriser_.ForEachTriangle(
-        drawn, 0, drawn.group->double_sided, [&](const Triangle& t, const Box& box, bool) {
-          const TriangleSurface surface = SurfaceOf(drawn, t);
-          Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
-            const I8 in_image = IntSteps() < SplatInt(width_ - x);
-            const I8 visible = covered & in_image & (inverse_w <= near) &
-                               (inverse_w > Load(&inverse_w_[At(x, y)]));
-            if (Bits(visible) == 0) return;
-            tiles_[static_cast<std::size_t>(y / kTileHeight * columns + x / kTileWidth)].is_kept =
-                tiles_[static_cast<std::size_t>(y / kTileHeight * columns +
-                                                std::min(x + 7, width_ - 1) / kTileWidth)]
-                    .is_kept = false;
-            const F8x3 ray = RayAt(x, y);
-            Surfaces surfaces;
-            FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            const I8 above = Encoded(light.Colour(surfaces, ray, lamps, visible), SplatInt(0));
-            std::uint32_t* to =
-                &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
-            const I8 below = LoadInt(to);
-            // The alpha channel keeps the number of the opaque surface.
-            I8 mixed = below & SplatInt(static_cast<std::int32_t>(0xff000000u));
-            for (int shift = 0; shift < 24; shift += 8) {
-              const F8 a = ToFloat((above >> shift) & SplatInt(0xff)),
-                       b = ToFloat((below >> shift) & SplatInt(0xff));
-              mixed |= Truncated(Fma(a - b, surfaces.alpha, b + Splat(0.5f))) << shift;
-            }
-            StoreInt(to, SelectInt(visible, mixed, below));
-          });
-        });
+        drawn, 0, drawn.group->double_sided,
+        [&](const Triangle& t, const Box& box, bool) { loops.Blend(t, box); });
+  }
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    if (is_blended_[i] != 0) tiles_[i].is_kept = false;
   }
 }
 

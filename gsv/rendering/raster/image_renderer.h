@@ -17,13 +17,17 @@
 #include "gsv/model/image.h"
 #include "gsv/rendering/lenses/depth_grid.h"
 #include "gsv/rendering/lenses/ground_truth.h"
-#include "gsv/rendering/raster/lighting.h"
+#include "gsv/rendering/raster/pixel_loops.h"
+#include "gsv/rendering/raster/sun_shadow.h"
 
 namespace gsv::rendering::raster {
 
 // Renders the view of one camera on the processor.
 class ImageRenderer {
  public:
+  using MakeLoops = std::unique_ptr<PixelLoops> (*)();
+  explicit ImageRenderer(MakeLoops make_loops) : make_loops_(make_loops) {}
+
   // Renders a posed render list, antialiased. `render_list_id` identifies the render list. `block`
   // must include the shadow parameters. If `shadow` is null, there are no shadows. If `team` is
   // null, everything is done on the caller's thread.
@@ -63,17 +67,6 @@ class ImageRenderer {
     // The texels of the shadow map that the shading of the tile may read.
     ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};
   };
-  // A box around the visible points of a tile, in the frame of FrustumOf().
-  struct TileBox {
-    bool is_empty = true;
-    geometry::Vector3 min, max;
-  };
-  // The data that one thread uses while it shades.
-  struct Shading {
-    // Element n - 1 is for triangle number n: its index in `surfaces`; -1 if it is not there yet.
-    std::vector<std::int32_t> surface_of;
-    std::vector<TriangleSurface> surfaces;
-  };
 
   // Clears the image.
   void Begin(const CameraView& view, const FrameBlock& block);
@@ -84,24 +77,19 @@ class ImageRenderer {
   // Whether the items that are already drawn hide a sphere.
   bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
   // Updates the nearest triangle of each pixel by the triangles of the item drawn_[number].
-  void CoverWith(std::uint32_t number, float nearest_w);
+  void CoverWith(std::uint32_t number);
   // Discards the kept tiles if `background` differs from that of the last image.
   void SetBackground(const Background& background);
   // Shades all opaque pixels, tile by tile.
-  void Light(const LightModel& light, const SunShadow* shadow, base::ThreadTeam* team);
+  void Light(const SunShadow* shadow, base::ThreadTeam* team);
   // Shades the opaque pixels of the tile at (x0, y0).
-  void LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
-                 Shading& shading);
+  void LightTile(PixelLoops& loops, const SunShadow* shadow, int x0, int y0);
   // Whether all pixels of the tile show bodies that have not moved.
   bool IsStillTile(int x0, int y0, int x1, int y1) const;
-  // Returns the box around the visible points of a tile.
-  TileBox BoxOfTile(int x0, int y0, int x1, int y1) const;
   // Returns the texels of the shadow map that the shading of points in the box may read.
-  ShadowRegion::Rectangle InShadow(const TileBox& box) const;
-  // Shades the eight pixels from (x, y) to the right.
-  void Light(const LightModel& light, const Lamps& lamps, int x, int y, Shading& shading);
+  ShadowRegion::Rectangle InShadow(const TileToShade& box) const;
   // Blends the transparent items.
-  void Blend(const CameraView& view, const RenderList& render_list, const LightModel& light);
+  void Blend(const CameraView& view, const RenderList& render_list, const SunShadow* shadow);
   // Returns the antialiased image.
   model::Image Smooth() const;
   // Returns the directions of eight pixels from (x, y) to the right.
@@ -120,7 +108,10 @@ class ImageRenderer {
   std::vector<std::uint32_t> nearest_;  // number of the nearest triangle, by pixel, from 1; 0 is
                                         // the sky
   std::vector<Triangle> triangles_;
-  std::vector<Shading> shadings_;
+  const MakeLoops make_loops_;
+  ImageInProgress in_progress_;
+  std::vector<std::unique_ptr<PixelLoops>> loops_;  // one for each thread
+  std::vector<std::uint8_t> is_blended_;  // for each tile, whether a transparent item was blended
   std::vector<Drawn> drawn_;  // the items of the image; Triangle::drawn is an index in this list
   std::vector<std::uint8_t> is_still_;  // whether each opaque item of drawn_ is still
   std::vector<std::int32_t> body_of_,

@@ -15,8 +15,13 @@ constexpr int kMaxTextureSide = 8192;
 
 bool CanRasterise() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 
-RasterBatchRenderer::RasterBatchRenderer(int threads)
+const char* RasteriserName() {
+  return HasSixteenLanes() ? "GSV rasteriser (AVX-512)" : "GSV rasteriser (AVX2)";
+}
+
+RasterBatchRenderer::RasterBatchRenderer(int threads, std::unique_ptr<PixelLoops> (*make_loops)())
     : BatchRenderer(MeshStore(MakeRasterMesh), TextureStore(MakeRasterTexture, kMaxTextureSide)),
+      make_loops_(make_loops),
       team_(threads) {}
 
 RasterBatchRenderer::~RasterBatchRenderer() = default;
@@ -92,7 +97,7 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraVie
   auto found = std::find_if(idle_.begin(), idle_.end(),
                             [&](const auto& renderer) { return renderer->IsOf(view); });
   if (found == idle_.end()) {
-    if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>();
+    if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>(make_loops_);
     found = idle_.begin();  // the renderer that was used least recently
   }
   auto renderer = std::move(*found);

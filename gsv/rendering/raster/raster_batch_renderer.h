@@ -9,6 +9,7 @@
 
 #include "gsv/base/mutex.h"
 #include "gsv/base/thread_team.h"
+#include "gsv/rendering/raster/pixel_loops.h"
 #include "gsv/rendering/raster/sun_shadow.h"
 #include "gsv/rendering/scene/batch_renderer.h"
 
@@ -16,7 +17,8 @@ namespace gsv::rendering::raster {
 
 class ImageRenderer;
 
-inline constexpr const char* kRasteriserName = "GSV rasteriser (AVX2)";
+// Returns the name of the back end, such as "GSV rasteriser (AVX-512)".
+const char* RasteriserName();
 
 // Whether this processor has AVX2 and FMA, which the rasteriser needs.
 bool CanRasterise();
@@ -24,8 +26,9 @@ bool CanRasterise();
 // The back end that renders on the processor.
 class RasterBatchRenderer final : public BatchRenderer {
  public:
-  // `threads` is at least 1.
-  explicit RasterBatchRenderer(int threads);
+  // `threads` is at least 1. `make_loops` makes the loops over pixels; all loops give the same images.
+  explicit RasterBatchRenderer(int threads,
+                               std::unique_ptr<PixelLoops> (*make_loops)() = MakePixelLoops);
   ~RasterBatchRenderer() override;
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
@@ -46,6 +49,7 @@ class RasterBatchRenderer final : public BatchRenderer {
   // Makes a renderer idle again.
   void GiveBack(std::unique_ptr<ImageRenderer> renderer);
 
+  std::unique_ptr<PixelLoops> (*const make_loops_)();
   base::ThreadTeam team_;
   SunShadow shadow_;
   base::Mutex mutex_;

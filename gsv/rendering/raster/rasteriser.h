@@ -85,10 +85,4 @@ class Rasteriser {
   Box boxes_[8];
 };
 
-// Computes the opaque pixels of an item with an alpha mask at the texture level `level`. dx and dy
-// are pixels from the triangle's x0 and y0.
-struct RasterTexture;
-I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& holes, float level,
-         F8 dx, float dy);
-
 }  // namespace gsv::rendering::raster

@@ -1,5 +1,6 @@
 #include "gsv/rendering/raster/rasteriser.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -154,7 +155,7 @@ TEST(BackEnds, DrawSimilarImages) {
   EXPECT_LT(far_off, static_cast<int>((*ours)->pixels.size() / 100));
 }
 
-// The renderer draws eight pixels at a time. A row of 203 pixels is not a multiple of eight.
+// The renderer draws eight or sixteen pixels at a time. A row of 203 pixels is not a multiple of eight.
 TEST(RasterBatchRenderer, DrawsEqualImagesByOneAndBySeveralThreads) {
   TestScene scene;
   scene.Add("floor", geometry::Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.9, 0.8, 0.7), true);
@@ -169,6 +170,71 @@ TEST(RasterBatchRenderer, DrawsEqualImagesByOneAndBySeveralThreads) {
     const auto apart = renderer.Draw(*snapshot, {view, view});  // each by one thread
     ASSERT_TRUE(together && apart);
     ASSERT_EQ(together->at(0)->pixels, apart->at(1)->pixels) << i;
+  }
+}
+
+// Widths that are and are not multiples of eight and sixteen, textures seen at a grazing angle, a
+// normal map, a mask, a transparent pane, curved and flat surfaces, lamps and shadows.
+TEST(RasterBatchRenderer, DrawsEqualImagesWithEightAndWithSixteenLanes) {
+  if (!raster::HasSixteenLanes()) GTEST_SKIP() << "this processor has no AVX-512";
+  TestScene scene;
+  model::Light sun, lamp, spot;
+  sun.direction = geometry::Normalized(geometry::Vector3{-1, 0.4, -0.8});
+  lamp.kind = model::Light::Kind::kPoint;
+  lamp.world_from_light.position = {2, 1, 2};
+  lamp.range = 4;
+  spot.kind = model::Light::Kind::kSpot;
+  spot.world_from_light.position = {4, -2, 3};
+  spot.range = 6;
+  scene.description().lights = {sun, lamp, spot};
+  const auto image = [](auto texel) {
+    auto made = std::make_shared<model::Image>();
+    made->width = 64, made->height = 32, made->channels = 4;
+    for (int i = 0; i < 64 * 32; ++i) {
+      const std::array<std::uint8_t, 4> rgba = texel(i % 64, i / 64);
+      made->pixels.insert(made->pixels.end(), rgba.begin(), rgba.end());
+    }
+    return made;
+  };
+  using Texel = std::array<std::uint8_t, 4>;
+  model::Material tiles = Matt(0.9, 0.8, 0.7), rough = Matt(0.5, 0.6, 0.7),
+                  mesh = Matt(0.8, 0.8, 0);
+  tiles.base_colour_map = image([](int x, int y) {
+    const std::uint8_t shade = (x / 8 + y / 8) % 2 == 0 ? 230 : 90;
+    return Texel{shade, static_cast<std::uint8_t>(4 * x), shade, 255};
+  });
+  rough.normal_map = image([](int x, int y) {
+    return Texel{static_cast<std::uint8_t>(128 + 5 * (x % 9)),
+                 static_cast<std::uint8_t>(128 - 6 * (y % 7)), 230, 255};
+  });
+  mesh.base_colour_map = image([](int x, int y) {
+    return Texel{200, 180, 60, static_cast<std::uint8_t>((x / 4 + y / 4) % 2 == 0 ? 255 : 0)};
+  });
+  mesh.alpha_mask = true;
+  model::Material metal;
+  metal.base_colour = {0.8, 0.6, 0.3, 1};
+  metal.metalness = 0.8, metal.roughness = 0.3;
+  scene.Add("floor", geometry::Box{{30, 30, 0.1}}, {{0, 0, -0.05}, {}}, tiles, true);
+  scene.Add("wall", geometry::Box{{0.1, 4, 2}}, {{6, 0, 1}, {}}, rough, true);
+  scene.Add("fence", geometry::Box{{0.1, 2, 1}}, {{4, 1.5, 0.5}, {}}, mesh);
+  scene.Add("ball", geometry::Sphere{0.5}, {{3, 0.5, 0.5}, {}}, metal);
+  scene.Add("post", geometry::Cylinder{0.2, 1.5}, {{4, -0.8, 0.75}, {}}, Matt(0.7, 0.1, 0.1));
+  scene.Add("pane", geometry::Box{{0.02, 1, 1}}, {{2.5, -0.8, 0.5}, {}}, Matt(0.2, 0.4, 0.9, 0.4));
+  const auto snapshot = scene.Snapshot();
+  raster::RasterBatchRenderer eight(1, raster::MakePixelLoops8);
+  raster::RasterBatchRenderer sixteen(1, raster::MakePixelLoops16);
+  for (const int width : {320, 200, 203, 41, 17, 16, 9, 1}) {
+    std::vector<CameraView> views;
+    for (int i = 0; i < 8; ++i) {
+      views.push_back(
+          {{{-0.2 * i, 0, 0.3 + 0.2 * i}, geometry::FromRollPitchYaw({0.1 * i, 0.05 * i, 0})},
+           {width, 90, 1.1, 0.05, 60}});
+    }
+    const auto expected = eight.Draw(*snapshot, views), drawn = sixteen.Draw(*snapshot, views);
+    ASSERT_TRUE(expected && drawn);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_EQ(drawn->at(i)->pixels, expected->at(i)->pixels) << width << ", view " << i;
+    }
   }
 }
 

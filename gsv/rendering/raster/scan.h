@@ -26,18 +26,21 @@ inline void Narrow(const Triangle& t, const F8 (&rows)[3], F8& left, F8& right) 
   }
 }
 
-// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y if the triangle covers one
-// of them. These pixels may be up to seven pixels beyond the box, so rows need padding.
-template <class Block>
+#pragma GCC pop_options
+
+// Calls block(x, y, covered, inverse_w) for vectors of pixels from (x, y) to the right of which the
+// triangle covers some. These pixels may be up to seven pixels beyond the box, so rows need padding.
+// For longer vectors, the other lanes beyond the box are not covered.
+template <class F, class Block>
 void Scan(const Triangle& t, const Box& box, Block&& block) {
   // Adjacent triangles overlap by this many pixels, so that rounding leaves no gap between them.
   constexpr float kOverlap = 1e-3f;
-  constexpr int kWide = 16;
+  constexpr int kWide = 16, kLanes = Lanes<F>::kCount;
   const float slack[3] = {kOverlap * (std::abs(t.a[0]) + std::abs(t.b[0])),
                           kOverlap * (std::abs(t.a[1]) + std::abs(t.b[1])),
                           kOverlap * (std::abs(t.a[2]) + std::abs(t.b[2]))};
-  const F8 a0 = Splat(t.a[0]), a1 = Splat(t.a[1]), a2 = Splat(t.a[2]);
-  const F8 a = a0 + a1 + a2;
+  const F a0 = Splat<F>(t.a[0]), a1 = Splat<F>(t.a[1]), a2 = Splat<F>(t.a[2]);
+  const F a = a0 + a1 + a2;
   const float total_slack = slack[0] + slack[1] + slack[2];
   const bool wide = box.x1 - box.x0 >= kWide;
   const float first_x = static_cast<float>(box.x0) - t.x0;
@@ -62,19 +65,18 @@ void Scan(const Triangle& t, const Box& box, Block&& block) {
     }
     for (int left = Bits(seen); left != 0; left &= left - 1) {
       const int lane = __builtin_ctz(static_cast<unsigned>(left));
-      const F8 r0 = Splat(q[0][lane]), r1 = Splat(q[1][lane]), r2 = Splat(q[2][lane]);
-      const F8 depth_row = Splat(inverse_w[lane]);
+      const F r0 = Splat<F>(q[0][lane]), r1 = Splat<F>(q[1][lane]), r2 = Splat<F>(q[2][lane]);
+      const F depth_row = Splat<F>(inverse_w[lane]);
       const int end = wide ? ends[lane] : box.x1;
-      for (int x = wide ? begins[lane] : box.x0; x <= end; x += 8) {
-        const F8 dx = Splat(static_cast<float>(x - box.x0)) + Steps();
-        const F8 inside = Min(Min(Fma(a0, dx, r0), Fma(a1, dx, r1)), Fma(a2, dx, r2));
-        const I8 covered = inside >= Splat(0);
+      for (int x = wide ? begins[lane] : box.x0; x <= end; x += kLanes) {
+        const F dx = Splat<F>(static_cast<float>(x - box.x0)) + Steps<F>();
+        const F inside = Min(Min(Fma(a0, dx, r0), Fma(a1, dx, r1)), Fma(a2, dx, r2));
+        auto covered = AtLeast(inside, Splat<F>(0));
+        if (kLanes == 16 && x + 8 > end) covered = FirstEight(covered);
         if (Bits(covered) != 0) block(x, first_y + lane, covered, Fma(a, dx, depth_row));
       }
     }
   }
 }
-
-#pragma GCC pop_options
 
 }  // namespace gsv::rendering::raster

@@ -11,9 +11,6 @@
 
 namespace gsv::rendering::raster {
 
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-
 // A look-up at (x, y), in texels from the map's corner, may read the texels from x - kBefore to
 // x + kAfter, both rounded down, and likewise for y. The centre of each of them is at most kBesideX
 // and kBesideY away from (x, y).
@@ -30,20 +27,22 @@ class ShadowBounds {
 
   // The lowest and the highest depth that look-ups at (x, y) may read. Look-ups outside the map
   // read the texels at its border.
+  template <class F>
   struct Range {
-    F8 min, max;
+    F min, max;
   };
-  // Returns the range for look-ups at eight points.
-  Range At(F8 x, F8 y) const {
+  // Returns the ranges for look-ups at the points of a vector.
+  template <class F>
+  Range<F> At(F x, F y) const {
     constexpr float kLast = kShadowSide - 0.5f;
-    x = Min(Max(x, Splat(0)), Splat(kLast)) * Splat(1.0f / kBlock);
-    y = Min(Max(y, Splat(0)), Splat(kLast)) * Splat(1.0f / kBlock);
-    const F8 column = Floor(x), row = Floor(y);
+    x = Min(Max(x, Splat<F>(0)), Splat<F>(kLast)) * Splat<F>(1.0f / kBlock);
+    y = Min(Max(y, Splat<F>(0)), Splat<F>(kLast)) * Splat<F>(1.0f / kBlock);
+    const F column = Floor(x), row = Floor(y);
     const float* blocks = &blocks_.data()->min;
-    const I8 at = (Truncated(row) * SplatInt(kSide) + Truncated(column)) * 4;
-    const I8x2 range = GatherPairs(blocks, at), slope = GatherPairs(blocks + 2, at);
-    return {(F8)range.first,
-            Fma((F8)slope.first, x - column, Fma((F8)slope.second, y - row, (F8)range.second))};
+    const auto at = (Truncated(row) * SplatInt<F>(kSide) + Truncated(column)) * 4;
+    const auto range = GatherPairs(blocks, at), slope = GatherPairs(blocks + 2, at);
+    return {(F)range.first,
+            Fma((F)slope.first, x - column, Fma((F)slope.second, y - row, (F)range.second))};
   }
 
  private:
@@ -63,7 +62,5 @@ class ShadowBounds {
 
   std::vector<Block> blocks_ = std::vector<Block>(std::size_t{kSide} * kSide);  // row by row
 };
-
-#pragma GCC pop_options
 
 }  // namespace gsv::rendering::raster

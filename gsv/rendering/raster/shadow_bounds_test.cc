@@ -29,7 +29,7 @@ class Map {
     bounds_.Update(&texels_[kFirst], kStride, {&part, 1}, team_);
   }
   // The bounds at eight points to the right of (x, y), 0.37 texels apart.
-  ShadowBounds::Range BoundsAt(double x, double y) const {
+  ShadowBounds::Range<F8> BoundsAt(double x, double y) const {
     return bounds_.At(Splat(static_cast<float>(x)) + Steps() * Splat(0.37f),
                       Splat(static_cast<float>(y)));
   }
@@ -52,7 +52,7 @@ class Map {
   }
   // Expects that the bounds contain all texels that look-ups around (x, y) read.
   void ExpectBounds(double x, double y) {
-    const ShadowBounds::Range bounds = BoundsAt(x, y);
+    const ShadowBounds::Range<F8> bounds = BoundsAt(x, y);
     for (int i = 0; i < 8; ++i) {
       const auto [lowest, highest] = RangeAt(static_cast<float>(x) + i * 0.37f, y);
       EXPECT_LE(bounds.min[i], lowest) << x << ", " << y << ", " << i;
@@ -112,7 +112,7 @@ TEST(ShadowBounds, AreTightForTiltedSurfaces) {
   map.Fill(kAll, [&](int x, int y) { return depth(x + 0.5, y + 0.5); });
   map.UpdateBounds(kAll);
   for (int y = 100; y < 140; ++y) {
-    const ShadowBounds::Range bounds = map.BoundsAt(200.3, y + 0.2);
+    const ShadowBounds::Range<F8> bounds = map.BoundsAt(200.3, y + 0.2);
     for (int i = 0; i < 8; ++i) {
       EXPECT_LT(bounds.max[i] - depth(200.3 + i * 0.37, y + 0.2),
                 1.7 * std::abs(by_x) + 1.4 * std::abs(by_y) + 2e-6);

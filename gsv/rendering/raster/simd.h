@@ -1,7 +1,11 @@
-// Vectors of eight numbers with AVX2 and FMA.
+// Vectors of eight numbers with AVX2 and FMA, and of sixteen numbers with AVX-512.
+//
+// Functions have the same names for both. Only pixel_loops_16.cc uses vectors of sixteen numbers. It is
+// compiled with AVX-512, and HasSixteenLanes() says whether the processor has it.
 //
 // Determinism  approximate instructions (reciprocals, inverse roots) are not used, because their
-//              results differ between processors of different makers.
+//              results differ between processors of different makers. Results do not depend on the
+//              number of lanes.
 #pragma once
 
 #include <immintrin.h>
@@ -13,12 +17,42 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
+typedef float F4 __attribute__((vector_size(16)));
 typedef float F8 __attribute__((vector_size(32)));
 // also used as masks, in which a lane has all bits or none
 typedef std::int32_t I8 __attribute__((vector_size(32)));
 
-inline F8 Splat(float value) { return _mm256_set1_ps(value); }
-inline I8 SplatInt(std::int32_t value) { return (I8)_mm256_set1_epi32(value); }
+// The types that belong to a vector of floats.
+template <class F>
+struct Lanes;
+template <>
+struct Lanes<F8> {
+  using Ints = I8;
+  using Mask = I8;
+  static constexpr int kCount = 8;
+};
+
+// Returns a vector with this number in all lanes.
+template <class F>
+F Splat(float value);
+template <class F>
+typename Lanes<F>::Ints SplatInt(std::int32_t value);
+// Returns 0, 1, 2, ...
+template <class F>
+F Steps();
+template <class F>
+typename Lanes<F>::Ints IntSteps();
+
+template <>
+inline F8 Splat<F8>(float value) {
+  return _mm256_set1_ps(value);
+}
+template <>
+inline I8 SplatInt<F8>(std::int32_t value) {
+  return (I8)_mm256_set1_epi32(value);
+}
+inline F8 Splat(float value) { return Splat<F8>(value); }
+inline I8 SplatInt(std::int32_t value) { return SplatInt<F8>(value); }
 inline F8 Load(const float* from) { return _mm256_loadu_ps(from); }
 inline I8 LoadInt(const void* from) {
   return (I8)_mm256_loadu_si256(static_cast<const __m256i*>(from));
@@ -30,7 +64,6 @@ inline void StoreInt(void* to, I8 value) {
 inline F8 Fma(F8 a, F8 b, F8 c) { return _mm256_fmadd_ps(a, b, c); }  // returns a b + c
 inline F8 Min(F8 a, F8 b) { return _mm256_min_ps(a, b); }
 inline F8 Max(F8 a, F8 b) { return _mm256_max_ps(a, b); }
-inline F8 Clamp01(F8 a) { return Min(Max(a, Splat(0)), Splat(1)); }
 inline F8 Sqrt(F8 a) { return _mm256_sqrt_ps(a); }
 inline F8 Floor(F8 a) { return _mm256_floor_ps(a); }
 inline F8 Ceil(F8 a) { return _mm256_ceil_ps(a); }
@@ -43,6 +76,10 @@ inline F8 Select(I8 mask, F8 a, F8 b) { return _mm256_blendv_ps(b, a, (__m256)ma
 inline I8 SelectInt(I8 mask, I8 a, I8 b) {
   return (I8)_mm256_blendv_epi8((__m256i)b, (__m256i)a, (__m256i)mask);
 }
+inline I8 Less(F8 a, F8 b) { return a < b; }
+inline I8 AtLeast(F8 a, F8 b) { return a >= b; }
+inline I8 LessInt(I8 a, I8 b) { return a < b; }
+inline I8 EqualInt(I8 a, I8 b) { return a == b; }
 // Returns a mask with one bit per lane: bit i is set if lane i of `mask` is set.
 inline int Bits(I8 mask) { return _mm256_movemask_ps((__m256)mask); }
 inline F8 Gather(const float* from, I8 index) {
@@ -72,28 +109,208 @@ inline I8 GatherByte(const std::uint8_t* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), (__m256i)index, 1) &
          SplatInt(0xff);
 }
-inline F8 Steps() { return F8{0, 1, 2, 3, 4, 5, 6, 7}; }
-inline I8 IntSteps() { return I8{0, 1, 2, 3, 4, 5, 6, 7}; }
+template <class F>
+F Load(const float* from);
+template <>
+inline F8 Load<F8>(const float* from) {
+  return _mm256_loadu_ps(from);
+}
+template <class F>
+typename Lanes<F>::Ints LoadInts(const void* from);
+template <>
+inline I8 LoadInts<F8>(const void* from) {
+  return LoadInt(from);
+}
+template <>
+inline F8 Steps<F8>() {
+  return F8{0, 1, 2, 3, 4, 5, 6, 7};
+}
+template <>
+inline I8 IntSteps<F8>() {
+  return I8{0, 1, 2, 3, 4, 5, 6, 7};
+}
+inline F8 Steps() { return Steps<F8>(); }
+inline I8 IntSteps() { return IntSteps<F8>(); }
+// Returns a mask in which all lanes are set if a lane of `mask` is set.
+inline I8 AnyOfEight(I8 mask) { return SplatInt(Bits(mask) != 0 ? -1 : 0); }
+// Returns a vector with a value for each group of eight lanes.
+inline F8 ByGroup(const float (&values)[1]) { return Splat(values[0]); }
+inline I8 ByGroup(const int (&values)[1]) { return SplatInt(values[0]); }
+// Stores the lanes of `mask` and leaves the others, which are `old`.
+inline void StoreMasked(I8 mask, float* to, F8 value, F8 old) {
+  Store(to, Select(mask, value, old));
+}
+inline void StoreMaskedInt(I8 mask, void* to, I8 value) {
+  StoreInt(to, SelectInt(mask, value, LoadInt(to)));
+}
+inline I8 FirstEight(I8 mask) { return mask; }
+// Returns 2^n.
+inline F8 PowerOfTwo(I8 n) { return (F8)_mm256_slli_epi32((__m256i)(n + 127), 23); }
 
-struct F8x3 {
-  F8 x, y, z;
+#pragma GCC pop_options
+
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,avx512f,avx512bw,avx512dq,avx512vl")
+
+typedef float F16 __attribute__((vector_size(64)));
+typedef std::int32_t I16 __attribute__((vector_size(64)));
+struct Mask16 {
+  __mmask16 bits;
 };
-inline F8x3 Splat(float x, float y, float z) { return {Splat(x), Splat(y), Splat(z)}; }
-inline F8x3 operator+(const F8x3& a, const F8x3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline F8x3 operator-(const F8x3& a, const F8x3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline F8x3 operator*(const F8x3& a, F8 k) { return {a.x * k, a.y * k, a.z * k}; }
-inline F8x3 operator*(const F8x3& a, const F8x3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline F8x3 Fma(const F8x3& a, F8 k, const F8x3& c) {
-  return {Fma(a.x, k, c.x), Fma(a.y, k, c.y), Fma(a.z, k, c.z)};
+template <>
+struct Lanes<F16> {
+  using Ints = I16;
+  using Mask = Mask16;
+  static constexpr int kCount = 16;
+};
+
+inline Mask16 operator&(Mask16 a, Mask16 b) { return {_kand_mask16(a.bits, b.bits)}; }
+inline Mask16 operator|(Mask16 a, Mask16 b) { return {_kor_mask16(a.bits, b.bits)}; }
+inline Mask16 operator~(Mask16 a) { return {_knot_mask16(a.bits)}; }
+template <>
+inline F16 Splat<F16>(float value) {
+  return _mm512_set1_ps(value);
 }
-inline F8 Dot(const F8x3& a, const F8x3& b) { return Fma(a.x, b.x, Fma(a.y, b.y, a.z * b.z)); }
-inline F8x3 Normalized(const F8x3& a) {
-  return a * (Splat(1) / Sqrt(Max(Dot(a, a), Splat(1e-30f))));
+template <>
+inline I16 SplatInt<F16>(std::int32_t value) {
+  return (I16)_mm512_set1_epi32(value);
 }
-inline F8x3 Select(I8 mask, const F8x3& a, const F8x3& b) {
-  return {Select(mask, a.x, b.x), Select(mask, a.y, b.y), Select(mask, a.z, b.z)};
+template <>
+inline F16 Steps<F16>() {
+  return F16{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+}
+template <>
+inline I16 IntSteps<F16>() {
+  return I16{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+}
+template <>
+inline F16 Load<F16>(const float* from) {
+  return _mm512_loadu_ps(from);
+}
+inline void Store(float* to, F16 value) { _mm512_storeu_ps(to, value); }
+template <>
+inline I16 LoadInts<F16>(const void* from) {
+  return (I16)_mm512_loadu_si512(from);
+}
+inline void StoreInt(void* to, I16 value) { _mm512_storeu_si512(to, (__m512i)value); }
+inline F16 Fma(F16 a, F16 b, F16 c) { return _mm512_fmadd_ps(a, b, c); }
+inline F16 Min(F16 a, F16 b) { return _mm512_min_ps(a, b); }
+inline F16 Max(F16 a, F16 b) { return _mm512_max_ps(a, b); }
+inline F16 Sqrt(F16 a) { return _mm512_sqrt_ps(a); }
+inline F16 Floor(F16 a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF); }
+inline F16 ToFloat(I16 a) { return _mm512_cvtepi32_ps((__m512i)a); }
+inline I16 Truncated(F16 a) { return (I16)_mm512_cvttps_epi32(a); }
+inline F16 Select(Mask16 mask, F16 a, F16 b) { return _mm512_mask_blend_ps(mask.bits, b, a); }
+inline I16 SelectInt(Mask16 mask, I16 a, I16 b) {
+  return (I16)_mm512_mask_blend_epi32(mask.bits, (__m512i)b, (__m512i)a);
+}
+inline Mask16 Less(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)}; }
+inline Mask16 AtLeast(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_OQ)}; }
+inline Mask16 LessInt(I16 a, I16 b) { return {_mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b)}; }
+inline Mask16 EqualInt(I16 a, I16 b) { return {_mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b)}; }
+inline int Bits(Mask16 mask) { return mask.bits; }
+inline I16 GatherInt(const void* from, I16 index) {
+  return (I16)_mm512_i32gather_epi32((__m512i)index, from, 4);
+}
+struct I16x2 {
+  I16 first, second;
+};
+inline I16x2 GatherPairs(const void* from, I16 index) {
+  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256((__m512i)index), from, 4);
+  const __m512i high =
+      _mm512_i32gather_epi64(_mm512_extracti32x8_epi32((__m512i)index, 1), from, 4);
+  const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+  return {(I16)_mm512_permutex2var_epi32(low, even, high),
+          (I16)_mm512_permutex2var_epi32(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high)};
+}
+inline I16 GatherByte(const std::uint8_t* from, I16 index) {
+  return (I16)_mm512_i32gather_epi32((__m512i)index, from, 1) & SplatInt<F16>(0xff);
+}
+// Returns a mask in which all lanes of a half are set if a lane of this half is set.
+inline Mask16 AnyOfEight(Mask16 mask) {
+  const unsigned bits = mask.bits;
+  return {
+      static_cast<__mmask16>(((bits & 0xff) != 0 ? 0xff : 0) | ((bits >> 8) != 0 ? 0xff00 : 0))};
+}
+inline void StoreMasked(Mask16 mask, float* to, F16 value, F16) {
+  _mm512_mask_storeu_ps(to, mask.bits, value);
+}
+inline void StoreMaskedInt(Mask16 mask, void* to, I16 value) {
+  _mm512_mask_storeu_epi32(to, mask.bits, (__m512i)value);
+}
+// Returns the mask with only its first eight lanes.
+inline Mask16 FirstEight(Mask16 mask) { return {static_cast<__mmask16>(mask.bits & 0xff)}; }
+inline F16 PowerOfTwo(I16 n) {
+  return (F16)_mm512_slli_epi32(_mm512_add_epi32((__m512i)n, _mm512_set1_epi32(127)), 23);
+}
+// Returns a vector with a value for each group of eight lanes.
+inline F16 ByGroup(const float (&values)[2]) {
+  return _mm512_mask_blend_ps(0xff00, _mm512_set1_ps(values[0]), _mm512_set1_ps(values[1]));
+}
+inline I16 ByGroup(const int (&values)[2]) {
+  return (I16)_mm512_mask_blend_epi32(0xff00, _mm512_set1_epi32(values[0]),
+                                      _mm512_set1_epi32(values[1]));
 }
 
 #pragma GCC pop_options
+
+// Vectors of three components, one for each lane.
+template <class F>
+struct Three {
+  F x, y, z;
+};
+using F8x3 = Three<F8>;
+
+template <class F>
+Three<F> Splat(float x, float y, float z) {
+  return {Splat<F>(x), Splat<F>(y), Splat<F>(z)};
+}
+inline F8x3 Splat(float x, float y, float z) { return Splat<F8>(x, y, z); }
+template <class F>
+F Clamp01(F a) {
+  return Min(Max(a, Splat<F>(0)), Splat<F>(1));
+}
+// Returns a for k = 0, and b for k = 1.
+template <class F>
+F Mixed(F a, F b, F k) {
+  return Fma(b - a, k, a);
+}
+template <class F>
+Three<F> operator+(const Three<F>& a, const Three<F>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class F>
+Three<F> operator-(const Three<F>& a, const Three<F>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class F>
+Three<F> operator*(const Three<F>& a, F k) {
+  return {a.x * k, a.y * k, a.z * k};
+}
+template <class F>
+Three<F> operator*(const Three<F>& a, const Three<F>& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class F>
+Three<F> Fma(const Three<F>& a, F k, const Three<F>& c) {
+  return {Fma(a.x, k, c.x), Fma(a.y, k, c.y), Fma(a.z, k, c.z)};
+}
+template <class F>
+F Dot(const Three<F>& a, const Three<F>& b) {
+  return Fma(a.x, b.x, Fma(a.y, b.y, a.z * b.z));
+}
+template <class F>
+Three<F> Normalized(const Three<F>& a) {
+  return a * (Splat<F>(1) / Sqrt(Max(Dot(a, a), Splat<F>(1e-30f))));
+}
+template <class F>
+Three<F> Select(typename Lanes<F>::Mask mask, const Three<F>& a, const Three<F>& b) {
+  return {Select(mask, a.x, b.x), Select(mask, a.y, b.y), Select(mask, a.z, b.z)};
+}
+
+template <class F>
+Three<F> Mixed(const Three<F>& a, const Three<F>& b, F k) {
+  return {Mixed(a.x, b.x, k), Mixed(a.y, b.y, k), Mixed(a.z, b.z, k)};
+}
 
 }  // namespace gsv::rendering::raster

@@ -6,12 +6,10 @@
 
 #include "gsv/rendering/raster/raster_texture.h"
 #include "gsv/rendering/raster/scan.h"
+#include "gsv/rendering/raster/surface.h"
 
 namespace gsv::rendering::raster {
 namespace {
-
-constexpr int kStride = kShadowSide + 16;
-constexpr int kFirst = kStride + 1;  // the index of texel (0, 0) of the map without its border
 
 // The detail of casters in the shadow map, in texels. Shadows of robots are rendered for each
 // snapshot, so they have less detail. Other objects always have full detail, because the image must
@@ -154,47 +152,16 @@ void SunShadow::DrawCaster(const Caster& caster, const Band& band, Rasteriser& r
         // Moves the depth away from the sun by its change over a texel, so that no surface shades
         // itself.
         c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
-        Scan(t, part, [&](int x, int y, I8 covered, F8) {
+        Scan<F8>(t, part, [&](int x, int y, I8 covered, F8) {
           const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
           const float dy = static_cast<float>(y) - t.y0;
-          if (holes != nullptr) covered &= Solid(t, mesh, *holes, 0, dx, dy);
+          if (holes != nullptr) covered &= Solid(t, mesh, *holes, dx, dy);
           const F8 z = Fma(Splat(a), dx, Splat(c + b * dy));
           float* at = &map[static_cast<std::size_t>(kFirst + std::ptrdiff_t{kStride} * y + x)];
           const F8 old = Load(at);
           Store(at, Select(covered & (z > old), z, old));
         });
       });
-}
-
-F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
-  // The centre of texel (0, 0) is at 0.5.
-  const F8 px = x - Splat(0.5f), py = y - Splat(0.5f);
-  const F8 whole_x = Floor(px), whole_y = Floor(py);
-  const F8 fx = px - whole_x, fy = py - whole_y;
-  const I8 at = (Truncated(whole_y) + 1) * SplatInt(kStride) + Truncated(whole_x) + 1;
-  const float* map = moving_.data();
-  const auto row = [&](int offset) {
-    const I8x2 depths = GatherPairs(map + offset, at);
-    const F8 left = Select(z >= (F8)depths.first, Splat(1), Splat(0));
-    const F8 right = Select(z >= (F8)depths.second, Splat(1), Splat(0));
-    return Fma(right - left, fx, left);
-  };
-  const F8 top = row(0), bottom = row(kStride);
-  return Fma(bottom - top, fy, top);
-}
-
-F8 SunShadow::Visible(const F8x3& point, I8 needed) const {
-  const F8 side = Splat(kShadowSide);
-  // Points outside the map use the border texels, which cast no shadow.
-  const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
-  const F8 x = point.x * side, y = point.y * side;
-  const F8 z = Max(point.z, Splat(0));  // the cleared map has depth 0, so no point may be below 0
-  const ShadowBounds::Range range = bounds_.At(x, y);
-  const I8 is_lit = z >= range.max, is_shaded = z < range.min;
-  if (Bits(needed & ~(is_lit | is_shaded)) == 0) return Select(is_lit, Splat(1), Splat(0));
-  const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
-  const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
-  return Splat(0.5f) * (first + second);
 }
 
 }  // namespace gsv::rendering::raster

@@ -34,7 +34,24 @@ class SunShadow {
   // The fraction of sunlight that reaches points of the map. x and y are from 0 to 1 across the
   // map, and z grows towards the sun. The fraction is 1 outside the map. Lanes outside `needed` get
   // any value in [0, 1].
-  F8 Visible(const F8x3& point, I8 needed) const;
+  template <class F>
+  F Visible(const Three<F>& point, typename Lanes<F>::Mask needed) const {
+    const F side = Splat<F>(kShadowSide);
+    // Points outside the map use the border texels, which cast no shadow.
+    const auto inside = [&](F at) { return Min(Max(at, Splat<F>(-0.5f)), side + Splat<F>(0.4f)); };
+    const F x = point.x * side, y = point.y * side;
+    // The cleared map has depth 0, so no point may be below 0.
+    const F z = Max(point.z, Splat<F>(0));
+    const ShadowBounds::Range<F> range = bounds_.At(x, y);
+    const auto is_lit = AtLeast(z, range.max), is_shaded = Less(z, range.min);
+    const auto open = AnyOfEight(needed & ~(is_lit | is_shaded));
+    const F bound = Select(is_lit, Splat<F>(1), Splat<F>(0));
+    if (Bits(open) == 0) return bound;
+    const F first = Lit(inside(x - Splat<F>(0.6f)), inside(y - Splat<F>(0.3f)), z);
+    const F second = Lit(inside(x + Splat<F>(0.6f)), inside(y + Splat<F>(0.3f)), z);
+    const F found = Splat<F>(0.5f) * (first + second);
+    return Lanes<F>::kCount == 8 ? found : Select(open, found, bound);
+  }
 
  private:
   struct Drawn {
@@ -71,7 +88,26 @@ class SunShadow {
   static void DrawCaster(const Caster& caster, const Band& band, Rasteriser& rasteriser,
                          std::vector<float>& map);
   // Returns the fraction of sunlight at a depth z, interpolated between the four nearest texels.
-  F8 Lit(F8 x, F8 y, F8 z) const;
+  template <class F>
+  F Lit(F x, F y, F z) const {
+    // The centre of texel (0, 0) is at 0.5.
+    const F px = x - Splat<F>(0.5f), py = y - Splat<F>(0.5f);
+    const F whole_x = Floor(px), whole_y = Floor(py);
+    const F fx = px - whole_x, fy = py - whole_y;
+    const auto at = (Truncated(whole_y) + 1) * SplatInt<F>(kStride) + Truncated(whole_x) + 1;
+    const float* map = moving_.data();
+    const auto row = [&](int offset) {
+      const auto depths = GatherPairs(map + offset, at);
+      const F left = Select(AtLeast(z, (F)depths.first), Splat<F>(1), Splat<F>(0));
+      const F right = Select(AtLeast(z, (F)depths.second), Splat<F>(1), Splat<F>(0));
+      return Fma(right - left, fx, left);
+    };
+    const F top = row(0), bottom = row(kStride);
+    return Fma(bottom - top, fy, top);
+  }
+
+  static constexpr int kStride = kShadowSide + 16;
+  static constexpr int kFirst = kStride + 1;  // index of texel (0, 0) of the map without its border
 
   std::vector<float> still_,
       moving_;  // kStride texels per row, with a border of one texel that casts no shadow

@@ -1,0 +1,300 @@
+// The loops over pixels, for vectors of any number of lanes.
+#pragma once
+
+#include <optional>
+
+#include "gsv/rendering/raster/lighting.h"
+#include "gsv/rendering/raster/pixel_loops.h"
+#include "gsv/rendering/raster/scan.h"
+
+namespace gsv::rendering::raster {
+
+template <class F>
+class VectorPixelLoops final : public PixelLoops {
+  using Ints = typename Lanes<F>::Ints;
+  using Mask = typename Lanes<F>::Mask;
+  static constexpr int kLanes = Lanes<F>::kCount;
+
+ public:
+  void Begin(const ImageInProgress& image) override { image_ = image; }
+
+  bool Cover(const Drawn& drawn, const Triangle& t, const Box& box, bool crosses_near,
+             std::uint32_t id, float back) override {
+    const bool has_holes = drawn.group->blending == Blending::kAlphaMask;
+    const auto* texture = static_cast<const RasterTexture*>(drawn.group->base_colour.get());
+    const F factor = Splat<F>(back), max = Splat<F>(image_.nearest_inverse_w);
+    const Ints number = SplatInt<F>(static_cast<std::int32_t>(id));
+    bool is_seen = false;
+    Scan<F>(t, box, [&](int x, int y, Mask covered, F inverse_w) {
+      const std::size_t at = At(x, y);
+      const F old = Load<F>(&image_.inverse_w[at]), moved = inverse_w * factor;
+      Mask visible = covered & Less(old, moved);
+      if (crosses_near) visible = visible & AtLeast(max, inverse_w);
+      if (Bits(visible) == 0) return;
+      if (has_holes && texture != nullptr) {
+        visible = visible & Solid(t, *drawn.mesh, *texture,
+                                  Splat<F>(static_cast<float>(x) - t.x0) + Steps<F>(),
+                                  static_cast<float>(y) - t.y0);
+      }
+      StoreMasked(visible, &image_.inverse_w[at], moved, old);
+      StoreMaskedInt(visible, &image_.nearest[at], number);
+      is_seen = true;
+    });
+    return is_seen;
+  }
+
+  void BeginShading(const VisibleTriangles& visible, const FrameBlock& block,
+                    const SunShadow* shadow) override {
+    visible_ = visible;
+    light_.emplace(block, shadow);
+    surface_of_.assign(visible.triangles.size(), -1);
+    material_of_.assign(visible.drawn.size(), -1);
+    surfaces_.clear();
+    materials_.clear();
+  }
+
+  TileToShade TileAt(int x0, int y0, int x1, int y1) const override {
+    F max_lanes = Splat<F>(0), min_lanes = Splat<F>(1e30f);  // the extremes of 1/w in the tile
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; x += kLanes) {
+        const Mask seen = ~EqualInt(LoadInts<F>(&image_.nearest[At(x, y)]), SplatInt<F>(0)) &
+                          LessInt(IntSteps<F>(), SplatInt<F>(x1 - x));
+        const F inverse_w = Load<F>(&image_.inverse_w[At(x, y)]);
+        max_lanes = Max(max_lanes, Select(seen, inverse_w, max_lanes));
+        min_lanes = Min(min_lanes, Select(seen, inverse_w, min_lanes));
+      }
+    }
+    float max_inverse_w = max_lanes[0], min_inverse_w = min_lanes[0];
+    for (int lane = 1; lane < kLanes; ++lane) {
+      max_inverse_w = std::max(max_inverse_w, max_lanes[lane]);
+      min_inverse_w = std::min(min_inverse_w, min_lanes[lane]);
+    }
+    if (max_inverse_w == 0) return {x0, y0, x1, y1, true, {}, {}};
+    constexpr double kMax = 1e30;
+    TileToShade tile{x0, y0, x1, y1, false, {kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
+    geometry::Vector3 &min = tile.min, &max = tile.max;
+    for (const int x : {x0, x1}) {
+      for (const int y : {y0, y1}) {
+        for (const float inverse_w : {max_inverse_w, min_inverse_w}) {
+          const auto part = [&](std::size_t i) {
+            const double px = x - 0.5, py = y - 0.5;
+            return (image_.forward[i] + image_.right[i] * px + image_.down[i] * py) /
+                   static_cast<double>(inverse_w);
+          };
+          const geometry::Vector3 p{part(0), part(1), part(2)};
+          min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+          max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+        }
+      }
+    }
+    return tile;
+  }
+
+  void Shade(const TileToShade& tile) override {
+    const Lamps<F> lamps = tile.is_empty ? Lamps<F>() : light_->Reaching(tile.min, tile.max);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; x += kLanes) Shade(lamps, x, y);
+    }
+  }
+
+  void BeginBlending(const Drawn& drawn, const geometry::Vector3& centre, double radius) override {
+    const geometry::Vector3 to_corner{radius, radius, radius};
+    blended_ = &drawn;
+    // Most items are so small that few lamps reach them.
+    blended_lamps_ = light_->Reaching(centre - to_corner, centre + to_corner);
+  }
+
+  void Blend(const Triangle& t, const Box& box) override {
+    const TriangleSurface surface = SurfaceOf(*blended_, t);
+    const F near = Splat<F>(image_.nearest_inverse_w);
+    Scan<F>(t, box, [&](int x, int y, Mask covered, F inverse_w) {
+      const int left = image_.width - x;
+      const Mask in_image = LessInt(IntSteps<F>(), SplatInt<F>(left));
+      const Mask visible = covered & in_image & AtLeast(near, inverse_w) &
+                           Less(Load<F>(&image_.inverse_w[At(x, y)]), inverse_w);
+      const int seen = Bits(visible);
+      if (seen == 0) return;
+      MarkBlended(x, y), MarkBlended(std::min(x + kLanes, image_.width) - 1, y);
+      const Three<F> ray = RayAt(x, y);
+      Surfaces<F> surfaces;
+      FillIn(*blended_, SeenPixels<F>(t, surface, x, y, seen), visible, true, ray, surfaces);
+      const Ints above =
+          Encoded(values_, light_->Colour(surfaces, ray, blended_lamps_, visible), SplatInt<F>(0));
+      std::uint32_t* to = image_.rgba + static_cast<std::size_t>(y) * image_.width + x;
+      const Ints below = LoadInts<F>(to);
+      // The alpha channel keeps the number of the opaque surface.
+      Ints mixed = below & SplatInt<F>(static_cast<std::int32_t>(0xff000000u));
+      for (int shift = 0; shift < 24; shift += 8) {
+        const F a = ToFloat((above >> shift) & SplatInt<F>(0xff)),
+                b = ToFloat((below >> shift) & SplatInt<F>(0xff));
+        mixed |= Truncated(Fma(a - b, surfaces.alpha, b + Splat<F>(0.5f))) << shift;
+      }
+      StoreInt(to, SelectInt(visible, mixed, below));
+    });
+  }
+
+ private:
+  // The surface of a triangle. If the material is even and the normal constant, `facing` is set.
+  struct Surface {
+    TriangleSurface triangle;
+    bool is_even = false;
+    std::int32_t material = 0;  // index in materials_, if the material is even
+    Facing<F> facing;
+  };
+
+  // Returns the surface of triangle number `id`.
+  const Surface& SurfaceFor(std::uint32_t id) {
+    std::int32_t& place = surface_of_[id - 1];
+    if (place >= 0) return surfaces_[static_cast<std::size_t>(place)];
+    place = static_cast<std::int32_t>(surfaces_.size());
+    return AddSurface(visible_.triangles[id - 1]);
+  }
+
+  __attribute__((noinline)) const Surface& AddSurface(const Triangle& triangle) {
+    const Drawn& drawn = visible_.drawn[triangle.drawn];
+    Surface& surface = surfaces_.emplace_back();
+    surface.triangle = SurfaceOf(drawn, triangle);
+    if (!surface.triangle.is_flat || !IsEven(*drawn.group)) return surface;
+    surface.is_even = true;
+    const auto& n = surface.triangle.normal;
+    surface.facing = light_->FacingOf(Normalized(Splat<F>(n[0].c, n[1].c, n[2].c)));
+    std::int32_t& material = material_of_[triangle.drawn];
+    if (material < 0) {
+      material = static_cast<std::int32_t>(materials_.size());
+      materials_.emplace_back(drawn);
+    }
+    surface.material = material;
+    return surface;
+  }
+
+  // Shades the pixels of a vector from (x, y) to the right.
+  void Shade(const Lamps<F>& lamps, int x, int y) {
+    const std::uint32_t* nearest = image_.nearest + static_cast<std::size_t>(y) * image_.stride + x;
+    const Ints ids = LoadInts<F>(nearest);
+    const Three<F> ray = RayAt(x, y);
+    const int left = image_.width - x;
+    const int in_image = left >= kLanes ? kAll : (1 << left) - 1;
+    const Mask is_sky = EqualInt(ids, SplatInt<F>(0));
+    const Mask used = ~is_sky & LessInt(IntSteps<F>(), SplatInt<F>(left));
+    const int seen = Bits(used);
+    Three<F> colour = Splat<F>(0, 0, 0);
+    Ints number = SplatInt<F>(0);
+    if (seen != 0) {
+      const std::uint32_t first = nearest[__builtin_ctz(static_cast<unsigned>(seen))];
+      const Mask sees_first = EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(first)));
+      const Surface& surface = SurfaceFor(first);
+      if (surface.is_even && (seen & ~Bits(sees_first)) == 0) {
+        const SeenPixels<F> pixels(visible_.triangles[first - 1], surface.triangle, x, y,
+                                   InGroups(Bits(sees_first), left));
+        colour = EvenColour(surface, pixels, ray, lamps, used);
+        number = SplatInt<F>(surface.triangle.number);
+      } else {
+        colour = MixedColour(nearest, ids, seen, x, y, ray, lamps, used, number);
+      }
+    }
+    if (seen != in_image) colour = Select(is_sky, light_->Sky(ray), colour);
+    const Ints rgba = Encoded(values_, colour, SelectInt(is_sky, SplatInt<F>(0), number));
+    std::uint32_t* to = image_.rgba + static_cast<std::size_t>(y) * image_.width + x;
+    if (in_image == kAll) {
+      StoreInt(to, rgba);
+    } else {
+      // The last pixels of a row: the next row must not be written, not even with its own values,
+      // because another thread may draw it now.
+      std::uint32_t last[kLanes];
+      StoreInt(last, rgba);
+      std::copy_n(last, left, to);
+    }
+  }
+
+  // Returns the colours of pixels that all see one triangle of an even material.
+  Three<F> EvenColour(const Surface& surface, const SeenPixels<F>& pixels, const Three<F>& ray,
+                      const Lamps<F>& lamps, Mask used) const {
+    const EvenMaterial<F>& material = materials_[static_cast<std::size_t>(surface.material)];
+    const Facing<F>& facing = surface.facing;
+    if (material.texture == nullptr) {
+      return light_->Colour(material.reflector, material.gloss, facing, facing.normal, pixels.w,
+                            ray, lamps, used);
+    }
+    const Three<F> base = material.base * Decoded(pixels.Look(*material.texture));
+    const Reflector<F> reflector(base, material.metalness, material.reflector.emissive,
+                                 material.reflector.occlusion);
+    return light_->Colour(reflector, material.gloss, facing, facing.normal, pixels.w, ray, lamps,
+                          used);
+  }
+
+  // Returns the colours of pixels that see any triangles, and sets the numbers of their surfaces.
+  Three<F> MixedColour(const std::uint32_t* nearest, Ints ids, int seen, int x, int y,
+                       const Three<F>& ray, const Lamps<F>& lamps, Mask used, Ints& number) {
+    Surfaces<F> surfaces;
+    bool is_first = true;
+    for (int left = seen; left != 0;) {
+      const std::uint32_t id = nearest[__builtin_ctz(static_cast<unsigned>(left))];
+      const Mask mask = EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(id)));
+      const Triangle& triangle = visible_.triangles[id - 1];
+      const SeenPixels<F> pixels(triangle, SurfaceFor(id).triangle, x, y,
+                                 InGroups(Bits(mask), image_.width - x));
+      FillIn(visible_.drawn[triangle.drawn], pixels, WithIdleLanes(mask, nearest, seen, id),
+             is_first, ray, surfaces);
+      is_first = false;
+      left &= ~Bits(mask);
+    }
+    number = surfaces.number;
+    return light_->Colour(surfaces, ray, lamps, used);
+  }
+
+  // Adds the lanes that see nothing to the mask of triangle number `id`, in those groups of eight
+  // lanes in which it is the first triangle. So a group has the same values as if it were shaded
+  // alone (see LightModel::AddLamp()).
+  static Mask WithIdleLanes(Mask mask, const std::uint32_t* nearest, int seen, std::uint32_t id) {
+    if constexpr (kLanes == 16) {
+      for (int first = 0; first < kLanes; first += 8) {
+        const auto lanes = static_cast<unsigned>(seen >> first & 0xff);
+        if (lanes == 0 || nearest[first + __builtin_ctz(lanes)] != id) continue;
+        mask.bits = static_cast<__mmask16>(mask.bits | (~lanes & 0xff) << first);
+      }
+    }
+    return mask;
+  }
+
+  // Leaves out the lanes of those groups of eight that are beyond the end of the row, which has
+  // `left` more pixels.
+  static int InGroups(int lanes, int left) {
+    return kLanes == 16 && left <= 8 ? lanes & 0xff : lanes;
+  }
+
+  Three<F> RayAt(int x, int y) const {
+    const F px = Splat<F>(static_cast<float>(x)) + Steps<F>();
+    const float py = static_cast<float>(y);
+    const auto part = [&](std::size_t i) {
+      return Fma(Splat<F>(image_.right[i]), px, Splat<F>(image_.forward[i] + image_.down[i] * py));
+    };
+    return {part(0), part(1), part(2)};
+  }
+
+  static constexpr int kAll = (1 << kLanes) - 1;
+
+  void MarkBlended(int x, int y) {
+    const int columns = (image_.width + kTileWidth - 1) / kTileWidth;
+    image_.is_blended[y / kTileHeight * columns + x / kTileWidth] = 1;
+  }
+
+  // The index of pixel (x, y).
+  std::size_t At(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.stride) +
+           static_cast<std::size_t>(x);
+  }
+
+  ImageInProgress image_;
+  VisibleTriangles visible_;
+  const std::uint8_t* const values_ = EncodedValues();
+  std::optional<LightModel<F>> light_;
+  const Drawn* blended_ = nullptr;  // the transparent item that is blended
+  Lamps<F> blended_lamps_;          // the lamps that reach it
+  // Element n - 1 is for triangle number n: its index in surfaces_; -1 if it is not there yet.
+  std::vector<std::int32_t> surface_of_;
+  std::vector<Surface> surfaces_;
+  std::vector<std::int32_t> material_of_;  // for each item: its index in materials_, or -1
+  std::vector<EvenMaterial<F>> materials_;
+};
+
+}  // namespace gsv::rendering::raster
