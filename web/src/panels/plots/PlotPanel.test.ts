@@ -108,3 +108,18 @@ test("a curve goes to the horizontal axis, and time returns when it is removed",
   panel.querySelector<HTMLButtonElement>('[aria-label="Remove a x"]')!.click();
   expect(store.get().plots.against).toBeNull();
 });
+
+test("the plot's tooltip says how to go to a time, only in a replay plotted against time", () => {
+  const { store, panel, choose } = panelIn();
+  const tooltip = () => panel.querySelector<HTMLElement>(".plot-canvas")!.title;
+  choose("Add a curve", "robot x");
+  expect(tooltip()).toBe("");
+  store.set({ replay: { start: 0, end: 10, speed: 1, loop: false } });
+  expect(tooltip()).toBe("Click or drag to go to a time");
+  choose("Horizontal axis", "robot a x");
+  expect(tooltip()).toBe("");
+  choose("Horizontal axis", "");
+  expect(tooltip()).toBe("Click or drag to go to a time");
+  store.set({ replay: null });
+  expect(tooltip()).toBe("");
+});
