@@ -4,6 +4,7 @@ import { initialState } from "../state/State";
 import { Store } from "../state/Store";
 import type { Split } from "../state/layout";
 import { textOf } from "../state/layout";
+import { MAX_SAVED } from "../state/layouts";
 import { STANDARD } from "../workspace/presets";
 import { LayoutControl } from "./LayoutControl";
 
@@ -85,6 +86,21 @@ test("a layout from a file is saved under its name", async () => {
   await control.importFile(new File([content], "lab.json"));
   expect(host.layout).toBe("r(view~800,log~200)");
   expect(store.get().layouts).toEqual([{ name: "Lab", text: "r(view~800,log~200)" }]);
+});
+
+test("with the maximum number of layouts, an imported layout is shown, and an error says that it is not saved", async () => {
+  const saved = Array.from({ length: MAX_SAVED }, (_, i) => ({ name: `Layout ${i}`, text: "r(view~600,log~400)" }));
+  const { control, host, store, items, notices } = fixture({ "gsv.layouts": JSON.stringify(saved) });
+  const fileNamed = (name: string) =>
+    new File([JSON.stringify({ gsv_layout: 1, name, layout: "r(view~800,log~200)" })], "lab.json");
+  await control.importFile(fileNamed("Lab"));
+  expect(host.layout).toBe("r(view~800,log~200)");
+  expect(notices()).toEqual(["40 layouts are saved already. Delete one first."]);
+  expect(store.get().layouts).toEqual(saved);
+  expect(JSON.parse(items.get("gsv.layouts")!)).toEqual(saved);
+  await control.importFile(fileNamed("Layout 7")); // replaces the layout with this name
+  expect(notices()).toHaveLength(1);
+  expect(store.get().layouts.at(-1)).toEqual({ name: "Layout 7", text: "r(view~800,log~200)" });
 });
 
 test("a file that is not a layout is rejected with its name, and nothing changes", async () => {

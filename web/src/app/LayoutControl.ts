@@ -89,11 +89,7 @@ export class LayoutControl {
     const { host } = this;
     const trimmed = name.trim().slice(0, MAX_NAME);
     if (!host || trimmed === "") return notify(this.store, "error", "Type a name for the layout first.");
-    const others = this.store.get().layouts.filter((each) => each.name !== trimmed);
-    if (others.length >= MAX_SAVED) {
-      return notify(this.store, "error", `${MAX_SAVED} layouts are saved already. Delete one first.`);
-    }
-    this.keep([...others, { name: trimmed, text: host.layout }]);
+    if (!this.add({ name: trimmed, text: host.layout })) return;
     notify(this.store, "note", `Layout ${trimmed} saved in this browser.`);
   }
 
@@ -113,8 +109,19 @@ export class LayoutControl {
     const read = fromFile(await file.text());
     if ("problem" in read) return refuse(read.problem);
     if (!this.showText(read.text, `The layout in ${file.name}`)) return;
-    const others = this.store.get().layouts.filter(({ name }) => name !== read.name);
-    if (others.length < MAX_SAVED) this.keep([...others, read]);
+    this.add(read);
+  }
+
+  // Adds a layout to the saved ones. Replaces a layout with the same name. If there are too many
+  // layouts, reports an error and returns false.
+  private add(layout: SavedLayout): boolean {
+    const others = this.store.get().layouts.filter(({ name }) => name !== layout.name);
+    if (others.length >= MAX_SAVED) {
+      notify(this.store, "error", `${MAX_SAVED} layouts are saved already. Delete one first.`);
+      return false;
+    }
+    this.keep([...others, layout]);
+    return true;
   }
 
   private keep(layouts: SavedLayout[]): void {
