@@ -3,7 +3,7 @@
 import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
 import type { Placed } from "../api/scenario";
 import { findRobot } from "../api/scenario";
-import { allChosen, chosenOf } from "../state/editing";
+import { allChosen } from "../state/editing";
 import type { Shape } from "../state/shapes";
 import { footprintOf, modelOf } from "../state/shapes";
 import type { BodyPose, State } from "../state/State";
@@ -97,10 +97,10 @@ export class EditActions {
     else if (!setUp) void this.edits.remove(selection);
   }
 
-  // Rotates the first selected body counter-clockwise, in radians. Only in edit mode.
+  // Rotates all selected bodies counter-clockwise, in radians. Only in edit mode.
   turn(angle: number): void {
-    const body = chosenOf(this.store.get());
-    if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
+    const state = this.store.get();
+    if (state.editing) void this.edits.turn(allChosen(state), angle);
   }
 
   undo(): void {

@@ -7,6 +7,7 @@ import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
 import { body, scene } from "../scene/testScene";
+import { EditActions } from "./EditActions";
 import { EditControl } from "./EditControl";
 
 const BEFORE = { x: 0, y: 0, z: 0.1, roll: 0, pitch: 0, yaw: 0 };
@@ -124,7 +125,7 @@ test("a removed object is restored as a copy at its former place", async () => {
 
 test("a rotation keeps an object's height, and a move puts it on the floor", async () => {
   const { store, api, control } = await editing();
-  await control.turn("box", 0.5);
+  await control.turn(["box"], 0.5);
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", { ...BEFORE, yaw: 0.5, roll: 0, pitch: 0 });
   await control.place("box", AFTER);
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", { ...AFTER, roll: 0, pitch: 0 });
@@ -133,8 +134,8 @@ test("a rotation keeps an object's height, and a move puts it on the floor", asy
 
 test("a rotation continues from the last one, even if the scene does not show it yet", async () => {
   const { api, control } = await editing();
-  await control.turn("box", 0.5);
-  await control.turn("box", 0.25);
+  await control.turn(["box"], 0.5);
+  await control.turn(["box"], 0.25);
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", expect.objectContaining({ yaw: 0.75 }));
   await control.undo();
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", expect.objectContaining({ yaw: 0.5 }));
@@ -162,6 +163,35 @@ test("several bodies move as one edit; robots stay upright", async () => {
     ["house", "box", BEFORE],
     ["house", "a", BEFORE],
   ]);
+});
+
+test("several bodies turn about their own origins as one edit, which one undo takes back", async () => {
+  const { store, api, control } = await editing({ x: 1, y: 2, z: 0.1, roll: 0.3, pitch: 0, yaw: 0.25 });
+  control.choose("box");
+  control.chooseMore(["a"]);
+  const actions = new EditActions(store, api as never, control, {} as never, () => null, () => null);
+  actions.turn(0.5);
+  await vi.waitFor(() => expect(store.get().editing!.undo).toEqual(["turn 2 bodies"]));
+  expect(api.placeBody.mock.calls).toEqual([
+    ["house", "box", { x: 1, y: 2, z: 0.1, roll: 0.3, pitch: 0, yaw: 0.75 }],
+    ["house", "a", { x: 1, y: 2, yaw: 0.75 }],
+  ]);
+  await control.undo();
+  expect(api.placeBody.mock.calls.slice(2)).toMatchObject([
+    ["house", "a", { x: 1, y: 2, yaw: 0.25 }],
+    ["house", "box", { x: 1, y: 2, roll: 0.3, yaw: 0.25 }],
+  ]);
+  expect(store.get().editing!.undo).toEqual([]);
+});
+
+test("if one of several bodies cannot turn, none turns", async () => {
+  const { store, api, control } = await editing();
+  api.placeBody.mockImplementation((async (_: string, name: string) => {
+    if (name === "a") throw new ApiError(422, "a would overlap a wall");
+  }) as never);
+  expect(await control.turn(["box", "a"], 0.5)).toBe(false);
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", BEFORE);
+  expect(store.get().editing!.undo).toEqual([]);
 });
 
 test("a copied body is pasted beside the original each time, and is then selected", async () => {

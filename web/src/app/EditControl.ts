@@ -140,15 +140,21 @@ export class EditControl {
       const move = before && this.movement({ body: each.body, place: this.allowed(each) }, before);
       return move ? [move] : [];
     });
-    if (moves.length === 0) return Promise.resolve(false);
-    return this.do(moves.length === 1 ? moves[0]! : together(`move ${moves.length} bodies`, moves));
+    return this.doTogether("move", moves);
   }
 
-  // Rotates the body counter-clockwise, in radians.
-  turn(body: string, angle: number): Promise<boolean> {
-    const before = this.placeOf(body);
-    if (!before) return Promise.resolve(false);
-    return this.place(body, { x: before.x, y: before.y, yaw: before.yaw + angle });
+  // Rotates each body counter-clockwise about the vertical axis through its origin, as one edit. The
+  // angle is in radians. Resolves to true if all bodies now have their new pose.
+  turn(bodies: readonly string[], angle: number): Promise<boolean> {
+    const turns = bodies.flatMap((body) => {
+      const before = this.placeOf(body);
+      if (!before) return [];
+      const turned = { x: before.x, y: before.y, yaw: before.yaw + angle };
+      const place = this.isObject(body) ? asObject(turned, before, true) : turned;
+      const turn = this.movement({ body, place }, before);
+      return turn ? [{ ...turn, name: `turn ${body}` }] : [];
+    });
+    return this.doTogether("turn", turns);
   }
 
   // Adds an object and selects it, so that it can be moved.
@@ -378,6 +384,12 @@ export class EditControl {
 
   private allowed({ body, place }: Posed): BodyPlace {
     return this.isObject(body) ? place : { x: place.x, y: place.y, yaw: place.yaw };
+  }
+
+  // Performs edits of different bodies as one edit. `verb` begins the name of this edit.
+  private doTogether(verb: string, edits: readonly Edit[]): Promise<boolean> {
+    if (edits.length === 0) return Promise.resolve(false);
+    return this.do(edits.length === 1 ? edits[0]! : together(`${verb} ${edits.length} bodies`, edits));
   }
 
   private async do(edit: Edit): Promise<boolean> {

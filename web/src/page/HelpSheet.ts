@@ -56,7 +56,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
       [["Ctrl C", "Ctrl V"], "Copy or paste the selection"],
       [["Ctrl D"], "Duplicate the selection"],
       [["Delete"], "Remove the selected robot or object"],
-      [["[", "]"], "Turn the selected robot or object by 15° to the left or right"],
+      [["[", "]"], "Turn the selected robots and objects by 15° to the left or right"],
     ],
   ],
   [
