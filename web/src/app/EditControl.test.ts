@@ -12,7 +12,14 @@ import { EditControl } from "./EditControl";
 
 const BEFORE = { x: 0, y: 0, z: 0.1, roll: 0, pitch: 0, yaw: 0 };
 const UPRIGHT = { x: 0, y: 0, z: 0.1, yaw: 0 };
+const OWN = { movement: "rigid", drive: "diff,radius=0.1" }; // movement and drive in SCENARIO
 const AFTER = { x: 1, y: 2, yaw: 0.5 };
+
+// As the server writes it for a robot "a" that was added with its own movement and drive.
+const SCENARIO = `world: house.sdf
+robots:
+  - {name: a, model: b21r, x: 0, y: 0, z: 0.1, yaw: 0, behaviour: wander, movement: rigid, drive: "diff,radius=0.1"}
+`;
 
 async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "running" = "paused") {
   const store = new Store<State>({
@@ -36,6 +43,10 @@ async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "ru
     removeRobot: vi.fn(leave),
     addObject: vi.fn(async (_: string, { name }: { name: string }) => (arrive(name || "crate_2", false), name || "crate_2")),
     removeObject: vi.fn(leave),
+    saveWorld: vi.fn(async () => {
+      const isThere = store.get().scene!.bodies.some(({ name }) => name === "a");
+      return { sdf: "<sdf/>", scenario: isThere ? SCENARIO : "world: house.sdf\n", warnings: [] };
+    }),
   };
   const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
   const resume = vi.fn();
@@ -71,6 +82,55 @@ test("a removed robot is restored at its place with its behaviour", async () => 
   await control.undo();
   const again = expect.objectContaining({ name: "a", model: "b21r", behaviour: "wander", place: UPRIGHT });
   expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
+});
+
+test("a removed robot is restored with its movement and its drive", async () => {
+  const { store, api, control } = await editing();
+  await control.remove("a");
+  await control.undo();
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "a", ...OWN }), false);
+  await control.redo();
+  await control.undo();
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "a", ...OWN }), false);
+  await control.removeAll(["box", "a"]);
+  await control.undo();
+  expect(api.addRobot).toHaveBeenCalledTimes(3);
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "a", ...OWN }), false);
+  expect(store.get().notices).toEqual([]);
+});
+
+test("a pasted robot has the movement and the drive of the original, even if the original was removed", async () => {
+  const { api, control } = await editing();
+  expect(control.copy(["a"])).toBe(1);
+  await control.paste();
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "", ...OWN }), false);
+  await control.remove("a");
+  await control.paste();
+  expect(api.addRobot).toHaveBeenCalledTimes(2);
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "", ...OWN }), false);
+});
+
+test("if the movement and the drive cannot be read, the robot is removed, and an error states the effect", async () => {
+  const { store, api, control } = await editing();
+  api.saveWorld.mockRejectedValueOnce(new ApiError(422, "the file of the world does not exist any more"));
+  expect(await control.remove("a")).toBe(true);
+  expect(store.get().notices.map(({ sentence }) => sentence)).toEqual([
+    "A robot that is added again or pasted gets the movement and the drive of its model, because its own cannot be read: the file of the world does not exist any more",
+  ]);
+  await control.undo();
+  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ name: "a", movement: "", drive: "" }), false);
+});
+
+test("nothing is read for objects, avatars and robots of the world file", async () => {
+  const { store, api, control } = await editing();
+  control.copy(["box"]);
+  await control.removeObject("box");
+  store.set({ scene: scene({ bodies: [body("a", { isOfWorld: true })] }) });
+  await control.remove("a");
+  store.set({ scene: scene({ bodies: [body("a", { isAvatar: true })] }) });
+  await control.remove("a");
+  expect(api.removeRobot).toHaveBeenCalledTimes(2);
+  expect(api.saveWorld).not.toHaveBeenCalled();
 });
 
 test("a robot of the world file is restored by its name only", async () => {

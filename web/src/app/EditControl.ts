@@ -11,11 +11,14 @@ import type { Store } from "../state/Store";
 import type { Edit } from "./edits";
 import { inOrder, together } from "./edits";
 import { notify, offer } from "./notices";
+import type { RobotChoices } from "./robotChoices";
+import { readRobotChoices } from "./robotChoices";
 
 const MOST_EDITS = 100;
 const STANDS_M = 1e-6; // an edit that moves a body by less than this only rotates it
 const SHOWN_WITHIN_MS = 10_000;
 const SHOWN_POLL_MS = 20;
+const NO_CHOICES: RobotChoices = new Map();
 const PASTED_AT_M = 0.5; // offset of a pasted copy from the original, along x and along y
 
 // Provides the reported poses of bodies.
@@ -47,6 +50,7 @@ export class EditControl {
   // Poses that were set here, but that no received scene contains yet.
   private readonly unseen = new Map<string, BodyPlace>();
   private copied: Copied[] = [];
+  private copiedChoices: Promise<RobotChoices> = Promise.resolve(NO_CHOICES);
   private pastes = 0; // how many times the copied bodies were pasted
 
   constructor(
@@ -181,14 +185,15 @@ export class EditControl {
   }
 
   remove(robot: string): Promise<boolean> {
-    const removal = this.removalOfRobot(robot);
+    const removal = this.removalOfRobot(robot, this.choicesOf([robot]));
     return removal ? this.do(removal) : Promise.resolve(false);
   }
 
   // Removes robots and objects as one edit.
   removeAll(bodies: readonly string[]): Promise<boolean> {
+    const choices = this.choicesOf(bodies);
     const removals = bodies.flatMap(
-      (body) => (this.isObject(body) ? this.removalOfObject(body) : this.removalOfRobot(body)) ?? [],
+      (body) => (this.isObject(body) ? this.removalOfObject(body) : this.removalOfRobot(body, choices)) ?? [],
     );
     if (removals.length === 0) return Promise.resolve(false);
     return this.do(removals.length === 1 ? removals[0]! : inOrder(`remove ${removals.length} bodies`, removals));
@@ -207,6 +212,7 @@ export class EditControl {
       if (!place || (robot === null && !this.isObject(body))) return [];
       return [{ body, robot: robot && { ...robot, name: "" }, isAvatar: this.isAvatar(body), place }];
     });
+    this.copiedChoices = this.choicesOf(bodies)();
     this.pastes = 0;
     return this.copied.length;
   }
@@ -214,18 +220,20 @@ export class EditControl {
   // Adds the copied bodies beside the originals, and selects the new bodies.
   async paste(): Promise<boolean> {
     const { simulation } = this.store.get();
-    if (!simulation || this.copied.length === 0) return false;
+    const { copied } = this;
+    if (!simulation || copied.length === 0) return false;
     const shift = ++this.pastes * PASTED_AT_M;
+    const choices = await this.copiedChoices;
     const names: string[] = [];
-    const additions = this.copied.map(({ body, robot, isAvatar, place }) => {
+    const additions = copied.map(({ body, robot, isAvatar, place }) => {
       const there = { ...place, x: place.x + shift, y: place.y + shift };
       if (!robot) return this.addition(simulation, { name: "", copy_of: body, place: there }, names);
-      return this.arrival(simulation, { ...robot, place: upright(there) }, isAvatar, names);
+      return this.arrival(simulation, { ...robot, ...choices.get(body), place: upright(there) }, isAvatar, names);
     });
-    const what = this.copied.length === 1 ? this.copied[0]!.body : `${this.copied.length} bodies`;
+    const what = copied.length === 1 ? copied[0]!.body : `${copied.length} bodies`;
     if (!(await this.do(inOrder(`paste ${what}`, additions)))) return false;
     const [first, ...more] = names;
-    const isFirstObject = this.copied[0]!.robot === null;
+    const isFirstObject = copied[0]!.robot === null;
     this.patch({ chosen: isFirstObject ? first! : null, more });
     this.store.set({ selection: isFirstObject ? null : first! });
     return true;
@@ -330,7 +338,7 @@ export class EditControl {
     };
   }
 
-  private removalOfRobot(robot: string): Edit | null {
+  private removalOfRobot(robot: string, choices: () => Promise<RobotChoices>): Edit | null {
     const { simulation } = this.store.get();
     const again = this.robotAgain(robot);
     if (!simulation || !again) return null;
@@ -338,18 +346,44 @@ export class EditControl {
     return {
       name: `remove ${robot}`,
       apply: async () => {
+        await choices(); // after the removal, the server no longer knows them
         await this.api.removeRobot(simulation, robot);
         await this.hasGone(robot);
       },
       revert: async () => {
-        await this.api.addRobot(simulation, again, isAvatar);
+        await this.api.addRobot(simulation, { ...again, ...(await choices()).get(robot) }, isAvatar);
         await this.hasCome(robot);
       },
     };
   }
 
-  // A robot that is added again gets a new instance of its behaviour. A robot from the world file
-  // needs only its name, and no model.
+  // Returns a function that reads the chosen movement and drive of these robots at its first call,
+  // and returns the same result at each further call. It reads nothing if no body can have such a
+  // choice: the server knows the choices of robots of the world file, and avatars have none.
+  private choicesOf(bodies: readonly string[]): () => Promise<RobotChoices> {
+    const { simulation } = this.store.get();
+    const canHave = (body: string) => {
+      const known = this.bodyOf(body);
+      return known !== undefined && known.isRobot && !known.isAvatar && !known.isOfWorld;
+    };
+    if (simulation === null || !bodies.some(canHave)) return () => Promise.resolve(NO_CHOICES);
+    let read: Promise<RobotChoices> | null = null;
+    return () => (read ??= this.readChoices(simulation));
+  }
+
+  private async readChoices(simulation: string): Promise<RobotChoices> {
+    try {
+      return await readRobotChoices(this.api, simulation);
+    } catch (error) {
+      const effect = "A robot that is added again or pasted gets the movement and the drive of its model";
+      notify(this.store, "error", `${effect}, because its own cannot be read: ${(error as Error).message}`);
+      return NO_CHOICES;
+    }
+  }
+
+  // Returns the request that adds the robot again, without its chosen movement and drive, see
+  // choicesOf(). A robot that is added again gets a new instance of its behaviour. A robot from the
+  // world file needs only its name, and no model.
   private robotAgain(robot: string): RobotSetUp | null {
     const known = this.store.get().status?.robots.find(({ name }) => name === robot);
     const place = this.placeOf(robot);

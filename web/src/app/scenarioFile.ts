@@ -28,11 +28,16 @@ function titleOf({ name, world }: Scenario): string {
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
     if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");
-    return parseScenario(await parse(await file.text()));
+    return await parseScenarioText(await file.text());
   } catch (error) {
     const reason = (error as Error).message.split("\n")[0];
     throw new Error(`${file.name} cannot be read as a scenario: ${reason}`);
   }
+}
+
+// Parses the text of a scenario, in YAML or JSON. If it is not a scenario, throws an error.
+export async function parseScenarioText(text: string): Promise<ReturnType<typeof parseScenario>> {
+  return parseScenario(await parse(text));
 }
 
 async function parse(text: string): Promise<unknown> {
