@@ -248,9 +248,12 @@ std::vector<Route> ViewRoutes(const std::string& prefix, ViewDrawer& drawer,
     route.later = ViewHandler(drawer, find, format, is_stream);
     routes.push_back(std::move(route));
   };
-  add("/view.jpg", ImageFormat::kJpeg, false, "Draw an image of a simulation, as JPEG");
-  add("/view.png", ImageFormat::kPng, false, "Draw an image of a simulation, as PNG");
-  add("/view.mjpeg", ImageFormat::kJpeg, true, "Draw a simulation as a stream of JPEG images");
+  add("/view.jpg", ImageFormat::kJpeg, false,
+      "Draw an image of a simulation or of a replay, as JPEG");
+  add("/view.png", ImageFormat::kPng, false,
+      "Draw an image of a simulation or of a replay, as PNG");
+  add("/view.mjpeg", ImageFormat::kJpeg, true,
+      "Draw a simulation or a replay as a stream of JPEG images");
   return routes;
 }
 
