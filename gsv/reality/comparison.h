@@ -49,9 +49,12 @@ struct CompareOptions {
   // Parameters of single sonars in a ring, one entry per beam, which override `parameters`. May be
   // empty.
   std::vector<model::Parameters> beam_parameters;
-  std::optional<TimedPose> start;  // pose of the robot at the first scan, in the world
-  double wheel_distance = 0.3;     // m
-  double height = 0.2;             // height at which the scanner is mounted, m
+  // Pose of the robot at the first scan, in the world. The time of the pose is not used. If the
+  // poses of the scans follow from the wheel readings only, it is the pose at the first wheel
+  // reading instead: for a sonar, for a log with measured yaw, and without `world`.
+  std::optional<TimedPose> start;
+  double wheel_distance = 0.3;  // m
+  double height = 0.2;          // height at which the scanner is mounted, m
   std::uint64_t seed = 1;
   int runs = 20;                // number of simulated odometry runs, with consecutive seeds
   std::size_t max_scans = 400;  // maximum number of simulated scans, evenly spaced in the log

@@ -285,7 +285,8 @@ void AddCampaignCommand(const CommandLine& line) {
   task->add_option("--task", its.task, "number of the task, from 0")->required();
   task->add_option("--job", its.job, "name of the job in the queue");
   task->add_option("--node", its.node, "name of this machine");
-  task->add_option("--jobs", its.jobs, "runs to execute in parallel")->check(Between(1, 256));
+  task->add_option("--jobs", its.jobs, "runs of this task to execute in parallel")
+      ->check(Between(1, 256));
   task->add_flag("--until-stdin-closes", its.until_stdin_closes, "end when stdin is closed");
   task->callback([=] { line.exit_code = RunTask(arguments->task, line.signals); });
   CLI::App* run = command->get_subcommand("run");

@@ -187,7 +187,9 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->needs(command.get_option("--world"));
   command
       .add_option("--start", arguments->start,
-                  "pose of the first scan in the world: X Y YAW, m and rad (default: searched)")
+                  "pose of the first scan in the world: X Y YAW, m and rad (default: searched)\n"
+                  "If the poses follow from the wheel readings only, this is the pose of the first "
+                  "wheel reading (default: the measured pose, else 0 0 0).")
       ->expected(3)
       ->type_name("NUMBER");
   command.add_option("--preset", arguments->preset, "preset of the simulated device")

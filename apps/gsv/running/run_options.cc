@@ -75,9 +75,11 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->type_name("N")
       ->group(kGroup);
   command
-      .add_flag("--strict", a.strict,
-                "refuse to run when there are warnings\nWarnings name elements of files that gsv "
-                "repairs or does not support.")
+      .add_flag(
+          "--strict", a.strict,
+          "refuse to run when there are warnings\nWarnings concern elements of files that gsv "
+          "repairs or does not support, start poses, missing folders, and options without "
+          "effect.")
       ->group(kGroup);
 }
 

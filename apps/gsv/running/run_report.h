@@ -15,6 +15,7 @@ namespace gsv::app {
 //   readings:{sonar: count, …}, health:{state, level, since_s, sentence}}], warnings:[…],
 //   expectations:[{name, yaml, where, holds, step, time_s, detail, measured:[{what, lowest,
 //   lowest_s, highest, highest_s, last}]}]
+// A station also has `is_station: true`.
 std::string JsonReport(simulation::Simulation& simulation, const std::vector<std::string>& warnings,
                        const std::vector<verdict::Finding>& findings);
 
