@@ -53,7 +53,7 @@ export function createHealthStrip(app: App): HTMLElement {
   return strip;
 }
 
-// Stations are counted only if they are dead, because they never move.
+// Stations are counted only if they are dead, because they have no drive.
 function countsOf(robots: readonly ListedRobot[]): Map<ShownState, number> {
   const counts = new Map<ShownState, number>();
   for (const { state, kind } of robots) {

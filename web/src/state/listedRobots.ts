@@ -30,7 +30,7 @@ function listed(robots: readonly RobotStatus[], health: Health | null, scene: Sc
     return {
       status: robot,
       kind,
-      state: kind === "station" && state === "moving" ? "unknown" : state, // a station never moves
+      state: kind === "station" && state === "moving" ? "unknown" : state, // a station has no drive
       health: health?.robots.get(robot.name) ?? null,
     };
   });
