@@ -31,7 +31,7 @@ namespace gsv::dynamics {
 // Computes the drive commands of all pedestrians.
 class Crowd {
  public:
-  static constexpr double kMaxRadius = 1.5;  // m
+  static constexpr double kMaxRadius = 1.5;  // m; movable bodies with a larger radius are ignored
   static constexpr double kStep = 0.15;      // m
   static constexpr double kArrival = 1;      // m
 

@@ -11,7 +11,8 @@
 
 namespace gsv::formats {
 
-// The values of a material's first pass. Members that the pass does not set are empty.
+// The values of a material's first pass, including those inherited from its parent. A colour or
+// texture that neither sets is empty; the shininess is then 0.
 struct OgreMaterial {
   std::optional<model::Colour> ambient, diffuse, specular, emissive;
   double shininess = 0;

@@ -7,9 +7,10 @@
 //   - elements and attributes that SDFormat or URDF does not define there, or no longer defines;
 //   - a second element where only one is allowed, a model beside a world, a second shape;
 //   - elements that GSV supports in part or not at all, unless they have the default value;
-//   - plugins that GSV does not replace.
-// Not reported: elements in other namespaces (<gz:name>), the content of plugins, and elements that
-// have no effect on a simulation.
+//   - plugins that GSV does not replace;
+//   - parameters of supported plugins that look misspelt.
+// Not reported: elements in other namespaces (<gz:name>), all other content of plugins, and
+// elements that have no effect on a simulation.
 #pragma once
 
 #include <filesystem>

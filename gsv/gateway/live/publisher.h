@@ -57,9 +57,9 @@ class Publisher {
   std::vector<Entry> Entries() const;
 
   const std::shared_ptr<SimulationDirectory> directory_;
-  WorkerPool& watchers_;    // reads sensors
-  WorkerPool& commanders_;  // runs commands
-  RecordingSwitch* const recordings_;
+  WorkerPool& watchers_;               // reads sensors
+  WorkerPool& commanders_;             // runs commands
+  RecordingSwitch* const recordings_;  // starts and stops recordings
   access::ViewerRegistry* const registry_;
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;  // notified when a round is requested or the thread must end

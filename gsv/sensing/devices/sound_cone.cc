@@ -104,8 +104,9 @@ double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoe
   std::sort(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) {
     return std::tie(a.distance, b.strength) < std::tie(b.distance, a.strength);
   });
-  // Echoes whose distances differ by less than this fraction count as one target. Only the
-  // strongest of these echoes is used.
+  // Echoes that are at most this fraction farther than the nearest of them count as one target. The
+  // strongest of them decides whether the sonar detects the target. The measured distance is that
+  // of the nearest.
   constexpr double kOneTarget = 0.02;  // fraction of the distance
   constexpr int kMaxTargets = 6;
   int targets = 0;
