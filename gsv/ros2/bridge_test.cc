@@ -12,6 +12,7 @@
 #include "gsv/messages/std_msgs.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/trajectory_msgs.h"
+#include "gsv/readings/catalogue.h"
 #include "gsv/ros2/node.h"
 #include "gsv/ros2/testing/peer.h"
 #include "gsv/simulation/testing/test_simulation.h"
@@ -167,6 +168,38 @@ TEST_F(BridgeTest, MovesJointsAlongATrajectory) {
     position = state.position.at(0);
   }
   EXPECT_NEAR(position, 0.3, 1e-3);
+}
+
+TEST_F(BridgeTest, PublishesACameraAndAWideAngleCameraOnDifferentTopics) {
+  // This library has no cameras, so IMUs have the names of the types.
+  auto sensors = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*sensors);
+  for (const char* const name : {readings::Camera::kType, readings::Camera::kWideAngleType}) {
+    sensing::SensorType type = *sensors->Find(readings::Imu::kType);
+    type.name = name;
+    type.aliases.clear();
+    ASSERT_TRUE(sensors->Add(std::move(type)));
+  }
+  auto specification = simulation::Lockstep(base::SimTime(0));
+  specification.mode = simulation::Mode::kRealTime;
+  simulation_ = *simulation::Simulation::Create(std::move(specification), sensors);
+  auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+  model->sensors.resize(2, model->sensors[0]);
+  model->sensors[0].name = "narrow";
+  model->sensors[0].type = readings::Camera::kType;
+  model->sensors[1].name = "wide";
+  model->sensors[1].type = readings::Camera::kWideAngleType;
+  auto robot = simulation::Robot("robot", 0, 0);
+  robot.model = model;
+  ASSERT_TRUE(simulation_->AddRobot(robot));
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  for (const std::string camera : {"narrow", "wide"}) {
+    const std::string topic = "/robot/" + camera + "/image_raw/compressed";
+    peer_->Listen(topic, "sensor_msgs/msg/Imu", kLargeDataQos);
+    EXPECT_EQ(peer_->Await<messages::sensor_msgs::Imu>(topic).header.frame_id,
+              "robot/" + camera + "/optical");
+  }
 }
 
 TEST_F(BridgeTest, IgnoresBytesThatAreNotACommand) {

@@ -94,15 +94,16 @@ bool RobotTopics::Fits(const world::Body& body,
 
 void RobotTopics::AddSensors(const Context& context) {
   const sensing::SensorRegistry& types = context.simulation.sensor_types();
-  std::map<std::string, int> counts;  // number of sensors of each type
+  // Number of sensors with each usual topic. Types of sensors may share a topic, as cameras do.
+  std::map<std::string, int> counts;
   for (const model::SensorDescription& description : sensors_) {
     const sensing::SensorType* const type = types.Find(description.type);
-    if (type != nullptr) ++counts[type->name];
+    if (type != nullptr) ++counts[UsualTopicOf(*type)];
     is_optical_.push_back(type != nullptr && type->companion.has_value());
   }
   for (const model::SensorDescription& description : sensors_) {
     const sensing::SensorType* const type = types.Find(description.type);
-    if (type != nullptr) AddSensor(context, description, counts[type->name] == 1);
+    if (type != nullptr) AddSensor(context, description, counts[UsualTopicOf(*type)] == 1);
   }
 }
 

@@ -194,6 +194,11 @@ class OutputList {
 
 }  // namespace
 
+std::string UsualTopicOf(const sensing::SensorType& type) {
+  const UsualTopic* const usual = FindUsualTopic(type.name);
+  return usual == nullptr ? std::string() : usual->topic;
+}
+
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model) {
   const UsualTopic* const usual = FindUsualTopic(sensor.type->name);

@@ -41,13 +41,19 @@ struct RosSensor {
   // the sensor's type; refers to the simulation's registry
   const sensing::SensorType* type = nullptr;
   std::shared_ptr<const sensing::Sensor> sensor;  // samples the readings
-  bool is_only =
-      true;  // whether it is the robot's only sensor of its type; its topic then has the usual name
+  // Whether it is the robot's only sensor with the usual topic of its type. Then its topic has the
+  // usual name.
+  bool is_only = true;
 };
 
+// Returns the usual topic of a type of sensor, such as "camera" for cameras and for wide-angle
+// cameras. Empty if the type has no usual topic.
+std::string UsualTopicOf(const sensing::SensorType& type);
+
 // Returns the messages of a sensor. The sensor's type determines their topics, such as "scan" for a
-// lidar and "camera/image_raw" for a camera. If a robot has several sensors of a type, the topics
-// begin with the sensors' names. If a type has no usual topic, the topic is the sensor's name.
+// lidar and "camera/image_raw" for a camera. If a robot has several sensors with the same usual
+// topic, the topics begin with the sensors' names. If a type has no usual topic, the topic is the
+// sensor's name.
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model);
 
