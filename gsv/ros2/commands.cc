@@ -55,9 +55,9 @@ base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::b
   return values;
 }
 
-CommandInput::CommandInput(const std::shared_ptr<simulation::Agent>& agent,
+CommandInput::CommandInput(const std::shared_ptr<simulation::Agent>& agent, world::Body body,
                            std::shared_ptr<NodeSteps> steps)
-    : agent_(agent), steps_(std::move(steps)), robot_(agent->robot()) {}
+    : agent_(agent), body_(std::move(body)), steps_(std::move(steps)), robot_(agent->robot()) {}
 
 void CommandInput::TakeTwist(std::span<const std::byte> sample) {
   const auto twist = messages::Decode<Twist>(sample);
@@ -112,7 +112,11 @@ void CommandInput::CommandJoints(const std::vector<int>& joints, world::JointCom
                            "the values must be finite, found NaN or infinity"),
                 topic);
   }
+  // All commands are checked before the first one is applied.
   base::Status status;
+  for (std::size_t i = 0; i < joints.size() && status; ++i) {
+    status = world::CheckJointCommand(body_, joints[i], {kind, values[i]});
+  }
   for (std::size_t i = 0; i < joints.size() && status; ++i) {
     status = agent->CommandJoint(joints[i], {kind, values[i]});
   }

@@ -1,8 +1,8 @@
 // Applies the commands that ROS 2 nodes send to a robot's drive and joints.
 //
-// The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
-// finite, is rejected as a whole: none of its values is applied. Only the robot's first rejected
-// message is logged.
+// The bytes are untrusted input. A message that cannot be decoded, contains a number that is not
+// finite, or has a command that a joint does not accept, is rejected as a whole: none of its values
+// is applied. Only the robot's first rejected message is logged.
 //
 // Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once
@@ -15,16 +15,18 @@
 
 #include "gsv/ros2/node_steps.h"
 #include "gsv/simulation/agent.h"
+#include "gsv/world/layout.h"
 
 namespace gsv::ros2 {
 
 // The commands from ROS 2 for one robot.
 class CommandInput {
  public:
+  // `body` is the robot's body. Its model and its kind determine which commands the joints accept.
   // `steps` is null if no ROS 2 node steps robots. While a node steps this robot, commands with a
   // time stamp are passed to `steps`.
-  explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
-                        std::shared_ptr<NodeSteps> steps = nullptr);
+  CommandInput(const std::shared_ptr<simulation::Agent>& agent, world::Body body,
+               std::shared_ptr<NodeSteps> steps = nullptr);
 
   // geometry_msgs/msg/Twist: linear x and y in m/s, angular z in rad/s; the other numbers have no
   // effect, but must be finite.
@@ -52,6 +54,7 @@ class CommandInput {
   void Note(const base::Status& status, const char* topic);
 
   const std::weak_ptr<simulation::Agent> agent_;
+  const world::Body body_;
   const std::shared_ptr<NodeSteps> steps_;  // null if no ROS 2 node steps robots
   const std::string robot_;
   std::atomic<std::uint64_t> taken_{0};    // number of applied messages

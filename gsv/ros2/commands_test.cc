@@ -23,11 +23,17 @@ messages::Bytes TwistBytes(double linear, double angular = 0) {
   return bytes;
 }
 
+// Returns the body of the robot "robot".
+world::Body BodyOf(const simulation::Simulation& simulation) {
+  const auto layout = simulation.snapshot()->layout;
+  return layout->bodies[static_cast<std::size_t>(layout->Find("robot"))];
+}
+
 struct CommandedRobot {
   CommandedRobot() {
     simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
     EXPECT_TRUE(simulation->AddRobot(simulation::Robot("robot", 0, 0)));
-    input = std::make_unique<CommandInput>(simulation->agent("robot"));
+    input = std::make_unique<CommandInput>(simulation->agent("robot"), BodyOf(*simulation));
   }
   double XAtTheEnd() {
     EXPECT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
@@ -112,14 +118,15 @@ messages::Bytes ArrayBytes(const std::vector<double>& values) {
   return bytes;
 }
 
-// Sends the elements of `arrays`, which are positions for the two joints, one after the other.
-// Returns the positions after 1 s.
-std::vector<double> PositionsAfter(const std::vector<std::vector<double>>& arrays) {
+// Sends the elements of `arrays`, which are positions for `joints`, one after the other. Returns the
+// positions of the two joints after 1 s.
+std::vector<double> PositionsAfter(const std::vector<std::vector<double>>& arrays,
+                                   const std::vector<int>& joints = {0, 1}) {
   const auto simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
   EXPECT_TRUE(simulation->AddRobot(TwoSliders()));
-  CommandInput input(simulation->agent("robot"));
+  CommandInput input(simulation->agent("robot"), BodyOf(*simulation));
   for (const std::vector<double>& each : arrays) {
-    input.TakeJoints(ArrayBytes(each), {0, 1}, world::JointCommand::Kind::kPosition);
+    input.TakeJoints(ArrayBytes(each), joints, world::JointCommand::Kind::kPosition);
   }
   EXPECT_EQ(input.taken() + input.refused(), arrays.size());
   EXPECT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
@@ -139,6 +146,11 @@ TEST(CommandInput, IgnoresAnArrayWithANonFiniteNumber) {
                infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(PositionsAfter({{0.25, nan}, {0.25, -infinity}, {nan, 0.5}, {0.25}, {0.1, 0.2, 0.3}}),
             (std::vector<double>{0, 0}));
+}
+
+TEST(CommandInput, IgnoresAnArrayIfALaterJointRefusesItsCommand) {
+  // The robot has no joint number 2.
+  EXPECT_EQ(PositionsAfter({{0.25, 0.5, 0.5}}, {0, 1, 2}), (std::vector<double>{0, 0}));
 }
 
 TEST(CommandInput, TakesNoCommandsForARemovedRobot) {

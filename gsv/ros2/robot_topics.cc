@@ -82,7 +82,7 @@ RobotTopics::RobotTopics(const Context& context, const world::Body& body, std::s
   AddSensors(context);
   AddImplied(context);
   description_ = node_.Advertise("robot_description", "std_msgs/msg/String", kLatchedQos);
-  if (takes_commands_) TakeCommands(context);
+  if (takes_commands_) TakeCommands(context, body);
 }
 
 bool RobotTopics::Fits(const world::Body& body,
@@ -150,10 +150,10 @@ void RobotTopics::AddImplied(const Context& context) {
       [body = body_](const world::Snapshot& snapshot) { return TruthMessage(snapshot, body); }));
 }
 
-void RobotTopics::TakeCommands(const Context& context) {
+void RobotTopics::TakeCommands(const Context& context, const world::Body& body) {
   const std::shared_ptr<simulation::Agent> agent = context.simulation.agent(body_);
   if (agent == nullptr) return;
-  const auto input = std::make_shared<CommandInput>(agent, context.options.steps);
+  const auto input = std::make_shared<CommandInput>(agent, body, context.options.steps);
   if (has_odometry_) {
     const bool is_stamped = context.options.is_cmd_vel_stamped;
     drive_type_ = is_stamped ? "geometry_msgs/msg/TwistStamped" : "geometry_msgs/msg/Twist";

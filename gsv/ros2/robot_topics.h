@@ -67,7 +67,7 @@ class RobotTopics {
   // Adds the topics of a sensor. `is_only`: see RosSensor.
   void AddSensor(const Context& context, model::SensorDescription description, bool is_only);
   // Subscribes to the commands of drive and joints.
-  void TakeCommands(const Context& context);
+  void TakeCommands(const Context& context, const world::Body& body);
   void TakeJointCommands(const Context& context, const std::shared_ptr<CommandInput>& input);
 
   const std::string body_;  // name of the body in the world
