@@ -372,6 +372,20 @@ TEST_F(SensorTypesTest, JointEncodersCountTurns) {
   EXPECT_EQ(missing.error().Sentence(), "robot/front: the robot has no joint \"knee\" that moves");
 }
 
+TEST_F(SensorTypesTest, JointEncodersReportTheAngleOfAScrewJoint) {
+  auto layout = std::make_shared<world::Layout>(*snapshot_->layout);
+  auto model = std::make_shared<model::Model>(*layout->bodies[body_].model);
+  model->joints[0].kind = model::JointKind::kScrew;
+  model->joints[0].thread_pitch = 0.01;
+  layout->bodies[body_].model = model;
+  snapshot_->layout = layout;
+  snapshot_->state.joint_positions[0] = 3.0;
+  snapshot_->state.joint_velocities[0] = 0.25;
+  const Reading reading = Sample(DescriptionOf("joint_encoders"));
+  ExpectValues(reading, {3, 0.25}, {"rad", "rad/s"});
+  EXPECT_EQ(*reading.labels, std::vector<std::string>{"turret"});
+}
+
 TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
   const model::Parameters parameters = {{"capacity", 2.0},       {"voltage_full", 12.0},
                                         {"voltage_empty", 10.0}, {"resistance", 0.5},

@@ -10,9 +10,12 @@
 namespace gsv::sensing {
 namespace {
 
-bool Moves(const model::Joint& joint) {
-  return joint.kind == model::JointKind::kRevolute || joint.kind == model::JointKind::kContinuous ||
-         joint.kind == model::JointKind::kPrismatic;
+// Whether the joint has one position: an angle, or for prismatic joints a length. The position of a
+// screw joint is its angle.
+bool HasPosition(const model::Joint& joint) {
+  using enum model::JointKind;
+  return joint.kind == kRevolute || joint.kind == kContinuous || joint.kind == kPrismatic ||
+         joint.kind == kScrew;
 }
 
 class JointEncoders final
@@ -32,7 +35,7 @@ class JointEncoders final
     Values encoded;
     for (std::size_t j = 0; j < robot.model->joints.size(); ++j) {
       const model::Joint& joint = robot.model->joints[j];
-      if (!Moves(joint) || (!joint_.empty() && joint.name != joint_)) continue;
+      if (!HasPosition(joint) || (!joint_.empty() && joint.name != joint_)) continue;
       const std::size_t place = robot.first_joint + j;
       const double position = noisy.Read(position_noise_, 2 * j, state.joint_positions[place]);
       encoded.joints.push_back(
