@@ -1,8 +1,8 @@
 // Volume, centroid and second moments of solid shapes.
 //
 // Source  Closed forms are from textbooks. The moments of a mesh follow from the divergence
-//         theorem: each triangle and the origin form a tetrahedron, and the moments of these are
-//         added.
+//         theorem: each triangle and a common point form a tetrahedron, and the moments of these
+//         are added.
 #pragma once
 
 #include "gsv/geometry/shape.h"
@@ -19,7 +19,7 @@ struct SolidMoments {
 };
 
 // Returns the moments in the shape's frame. A plane has no volume. A mesh must be closed, because
-// the result for an open mesh depends on the position of the mesh's origin. The normals of a mesh
+// the result for an open mesh depends on the position of its first vertex. The normals of a mesh
 // may point inwards.
 SolidMoments MomentsOf(const Shape& shape);
 

@@ -53,8 +53,8 @@ struct RobotHealth {
   base::SimTime since{0};          // start of `state`
   world::DriveCommand command;     // the last command
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
-  // Only for a robot that stands or is stuck: the shortest distance that its range sensors measure.
-  // Absent if this distance is not short, see FindLimit().
+  // Only for a robot that stands, is stuck or is in contact: the shortest distance that its range
+  // sensors measure. Absent if this distance is not short, see FindLimit().
   std::optional<Limit> limit;
   std::string contact;  // a body that the robot touches; empty if there is none
   std::string summary;  // such as "has not moved", "has been stuck" or "has been dead"

@@ -44,7 +44,7 @@ struct CompareOptions {
   // Whether the scans of every other block of 4 s update the walls of the world, for example for
   // open doors and for objects that have moved.
   bool update_world = false;
-  std::string preset;            // the preset of the log's scanner or odometer
+  std::string preset;            // the preset of the log's scanner, odometer or radio
   model::Parameters parameters;  // parameters that override the preset
   // Parameters of single sonars in a ring, one entry per beam, which override `parameters`. May be
   // empty.
@@ -75,9 +75,9 @@ struct FittedDevice {
   std::vector<FittedParameter> parameters;
   std::string warning = {};  // see Comparison::warning
 };
-// Fits the parameters of a scanner to the scans of the log's even blocks (world_fit.h). Fits those
-// of odometry and of radio ranges to the whole log. For a ring of sonars, returns one device for
-// each beam, in beam order. Fails with kInvalidArgument in the same cases as Compare().
+// Fits the parameters of a scanner and of radio ranges to the log's even blocks (world_fit.h). Fits
+// those of odometry to the whole log. For a ring of sonars, returns one device for each beam, in
+// beam order. Fails with kInvalidArgument in the same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
 // Returns an SDFormat sensor for each device.

@@ -20,9 +20,9 @@ struct PlacedScans {
 Log WithBases(Log log, const CompareOptions& options);
 
 // Returns the scans of the log's even blocks (`for_fitting`) or of its odd blocks. Worlds are
-// fitted to the even blocks, so these blocks cannot be used to judge a device. If `for_fitting`,
-// the first half of each even block makes the world, and the second half is compared. Fails with
-// kInvalidArgument if no world or no path can be found.
+// fitted to the even blocks, so these blocks cannot be used to judge a device. If `for_fitting` and
+// the world is fitted or updated, the first half of each even block makes the world, and the second
+// half is compared. Fails with kInvalidArgument if no world or no path can be found.
 base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
                                      bool for_fitting);
 
@@ -35,7 +35,7 @@ base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const L
 std::vector<model::SensorDescription> ConfiguredSensors(const Log& log,
                                                         const CompareOptions& options);
 
-// Replaces readings at or beyond the maximum range by infinity (no echo).
+// Replaces readings at or beyond the maximum range, and negative ones, by infinity (no echo).
 void MarkMissing(std::vector<double>& ranges, double max_range);
 
 // Returns "sonar" or "lidar".

@@ -19,8 +19,7 @@ std::vector<RangeScan> ScansFor(const Log& log, bool for_fitting);
 
 // Makes an occupancy grid by log odds (Thrun, Burgard, Fox, "Probabilistic Robotics", chapter 9).
 // In a cone of sound, cells at the measured range may be occupied, and nearer cells are free. Scans
-// need `base`. Returns kInvalidArgument if no scan has a pose, or if the path is more than a
-// kilometre wide.
+// need `base`. Returns kInvalidArgument if no scan has a pose, or if the path is too wide.
 base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& scans,
                                   double resolution);
 

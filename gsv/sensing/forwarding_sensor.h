@@ -1,4 +1,4 @@
-// A sensor that forwards all calls to another sensor; a base class for decorators.
+// A sensor that forwards all calls except beam() to another sensor; a base class for decorators.
 #pragma once
 
 #include <memory>

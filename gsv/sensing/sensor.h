@@ -127,7 +127,8 @@ class Sensor {
   const model::SensorDescription& description() const { return description_; }
 
   // Takes a reading. May be slow, for example for an image. A slow call on the stepping thread
-  // delays the next step. Fails only if resources are missing, such as a renderer for a camera.
+  // delays the next step. Fails if something is missing, such as a renderer for a camera or the
+  // joint of an encoder.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
   // Whether Sample() waits for another thread, such as a renderer.
   virtual bool TakesLong() const { return false; }

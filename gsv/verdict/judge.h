@@ -49,8 +49,8 @@ struct Finding {
 class Judge final : public simulation::Observer, public simulation::ExpectationSource {
  public:
   // Observes the simulation until the judge is destroyed. The simulation must have its robots and
-  // must not have started. Fails if an expectation is about an unknown body; the error names the
-  // place of the expectation. A verdict before the end of the run is emitted as an event,
+  // must not have started. Fails if Measure::Check() fails for an expectation; the error names
+  // the place of the expectation. A verdict before the end of the run is emitted as an event,
   // "expectation_violated" or "expectation_held". At the end of the run, only violations are
   // emitted.
   static base::Result<std::shared_ptr<Judge>> Attach(

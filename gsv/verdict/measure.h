@@ -31,7 +31,8 @@ class Measure {
 
   // Sets the snapshot at which Of() measures. It must be the simulation's latest snapshot.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
-  // Returns the value, or nullopt if the body was removed or the sensor fails.
+  // Returns the value; nullopt if there is none, for example because the body was removed or the
+  // sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
   // Returns the robot that has not moved for the longest time although it was commanded to move;
   // empty if there is none.
@@ -43,7 +44,7 @@ class Measure {
   // The values of Kind::kSensor and Kind::kContact, see Quantity.
   std::optional<double> OfSensor(const scenario::Quantity& quantity) const;
   std::optional<double> OfContact(const scenario::Quantity& quantity) const;
-  // Whether the robot's behaviour has finished or died.
+  // Whether the robot's behaviour has finished, died or become unresponsive.
   bool HasEnded(const std::string& robot);
   // Returns the value of kStuck for one body, s.
   double SecondsStuck(int body) const;

@@ -1,10 +1,10 @@
 // The PID controllers of joints (model::JointGains).
 //
-// Effort  p e + I - d v for a position command, and p e + I - d dv/dt for a velocity command. Here
-//         e is the command minus the measured value, v the joint's velocity and I the integral
-//         term. The effort is computed with the velocity at the end of a substep, so that large
-//         gains on light links stay stable. For a position command, the damping d is at least p
-//         times the substep.
+// Effort  p e + I + c - d v for a position command, and p e + I + c - d dv/dt for a velocity
+//         command. Here e is the command minus the measured value, v the joint's velocity, I the
+//         integral term and c the offset. The effort is computed with the velocity at the end of a
+//         substep, so that large gains on light links stay stable. For a position command, the
+//         damping d is at least p times the substep.
 // Source  gz::math::PID, whose integral term is limited. Its derivative term acts on the error; the
 //         equations above assume a constant command.
 #pragma once

@@ -17,7 +17,7 @@ namespace gsv::dynamics {
 struct Displacer {
   double volume = 0;         // m³
   geometry::Vector3 centre;  // centre of the volume
-  double radius = 0;         // radius of a sphere; 0 for other shapes
+  double radius = 0;         // radius of a sphere in a fluid with layers; else 0
   // closed surface of any other shape; empty if the fluid has no layers
   geometry::TriangleMesh surface{};
   double reach = 0;              // distance of the farthest point from `centre`, m

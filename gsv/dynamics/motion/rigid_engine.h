@@ -58,7 +58,7 @@ class RigidEngine {
   // point the impulse of normal force and friction. `began` means that the two bodies did not touch
   // at the start of the step. A pair has at most two contacts. One of them may have `supports`: at
   // its points, the second body carries the first from below, as the ground does. The second body
-  // is then static or planar.
+  // is then static, planar or an actor.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 

@@ -3,8 +3,9 @@
 // Animations    the joints have the positions of the current frame. The frame follows from the
 //               time. For an animation by distance, the frame follows from the distance travelled
 //               since the trajectory's start, divided by the distance that the animation covers.
-// Velocities    the mean over the step. An actor whose script restarts at another place jumps: its
-//               velocity is zero in that step, and it touches nothing between the two places.
+// Velocities    the mean over the step. An actor whose script restarts or changes its trajectory
+//               at another place jumps: its velocity is zero in that step, and it touches nothing
+//               between the two places.
 // Threads       one thread at a time.
 // Determinism   an actor's pose is a function of its initial pose, its script and the time.
 #pragma once
@@ -35,7 +36,7 @@ class ActorMover {
     const model::Script* script = nullptr;  // never null
     geometry::Pose world_from_trajectory;   // pose of the frame in which waypoints are given
     int first_joint = 0;  // index of the actor's first joint in State::joint_positions
-    // for each trajectory: distance from the start to each waypoint, m
+    // for each trajectory: distances from the start, at equal times between waypoints, m
     std::vector<std::vector<double>> ways;
   };
   // Writes the pose and joint positions that the actor has at this instant of its script.

@@ -17,8 +17,8 @@ constexpr double kStandsStill = 0.05;  // m/s: a slower pedestrian keeps its hea
 constexpr double kSameSide = 0.5;
 constexpr double kRoundingOfCells = 1e-9;
 
-// The lowest and the highest point of a body, relative to its origin. Approximate for a body that
-// is not upright.
+// The height of a body's highest point above its origin. Approximate for a body that is not
+// upright.
 double HeightOf(const model::Model& model) {
   double top = 0;
   for (const model::Link& link : model.links) {

@@ -105,7 +105,7 @@ class PlanarScene {
   void FindDynamicObstacles(const world::State& state, std::span<const Sight> sights);
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<MoverKind> kinds_;  // one for each model of a mover
+  std::vector<MoverKind> kinds_;  // one for each model, and one for each tilted mover
   std::vector<Mover> movers_;
   std::vector<int> levels_;          // levels of all pieces of all movers, see level()
   std::vector<Interval> intervals_;  // height intervals of the levels

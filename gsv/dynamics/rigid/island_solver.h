@@ -12,7 +12,8 @@
 //          following iterations remove its effect. So redundant contacts share the load as equal
 //          springs would.
 // Heaps    ContactSweeps solves islands of more than kMaxHeap velocities in which no body has
-//          joints, because Newton's method takes many iterations where such islands collide.
+//          joints or is pushed, because Newton's method takes many iterations where such islands
+//          collide.
 // Others   ImpulseRows solves all other islands of more than kMaxVelocities, and the few for which
 //          Newton's method does not converge.
 // Overlaps of bodies without joints: see OverlapRemoval.

@@ -5,8 +5,8 @@
 // Method   along the normal of each pair, the bodies separate by kShare of their overlap in a
 //          substep. Pairs that do not overlap may approach by their gap. The velocities w minimise
 //          the sum of m |w|². They are found by projected Gauss-Seidel, forwards and backwards in
-//          turn. Bodies are only shifted, not rotated. So each pair has one row, for its deepest
-//          point.
+//          turn. Bodies are only shifted, not rotated. So contacts of a pair with the same normal
+//          share a row, for the deepest point.
 // Speed    all velocities are scaled so that none exceeds kMaxSpeed. At this speed, two bodies
 //          approach within a substep by less than the margin of contacts, so that no body is pushed
 //          through another.
@@ -65,7 +65,7 @@ class OverlapRemoval {
   void Limit();
 
   std::vector<Body> bodies_;
-  std::vector<Row> rows_;  // one for each contact
+  std::vector<Row> rows_;  // consecutive contacts of a pair with one normal share a row
 };
 
 }  // namespace gsv::dynamics

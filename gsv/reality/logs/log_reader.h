@@ -17,7 +17,7 @@ namespace gsv::reality {
 // Returns the names of the formats in the order in which the help lists them.
 std::vector<std::string> LogFormats();
 
-// Detects the format of a log from its file name and, for *.log, from its first lines. Fails with
+// Detects the format of a log from its file name, or else from its first lines. Fails with
 // kInvalidArgument if the format cannot be detected.
 base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 

@@ -1,9 +1,9 @@
 // The rows of a text log: words separated by blanks, one row per line.
 //
-// Input   untrusted. A file above 512 MiB and a line above 1 MiB are refused. An unusable row is
-//         left out with a sentence that names file and line. For each file, the first 20 such
-//         sentences are kept, and the others are counted. If a tenth of the rows is unusable, the
-//         file is refused.
+// Input   untrusted. A file above 512 MiB is refused. An unusable row, such as a line above 1 MiB,
+//         is left out with a sentence that names file and line. For each file, the first 20 such
+//         sentences are kept, and the others are counted. If more than a tenth of the rows is
+//         unusable, the file is refused.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace gsv::reality {
 
 class TextRows {
  public:
-  // Fails with kNotFound or kCorrupt. `problems` must outlive this object.
+  // Fails with kNotFound, kCorrupt or kUnavailable. `problems` must outlive this object.
   static base::Result<TextRows> Open(const std::filesystem::path& path, base::Problems& problems);
 
   // Moves to the next row. Skips blank lines and comments (#).

@@ -22,8 +22,8 @@ struct SliceOptions {
 
 // Cuts the world at a height, as a robot would map it: the surfaces of the bodies at the start of
 // the simulation are occupied. Everything else is free, including the inside of solids. Robots are
-// omitted. Fails with kInvalidArgument if no body is at that height, or if the map would exceed 64
-// million cells.
+// omitted. Fails with kInvalidArgument if no body reaches that height, or if the map would exceed
+// 64 million cells.
 base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
                                       const SliceOptions& options);
 

@@ -8,7 +8,7 @@
 //   position.noise (rad or m), velocity.noise (rad/s or m/s)   see noise.h
 // Readings    for each joint, in the order of the model, the values {position, velocity}, and its
 //             name as label. As a message: sensor_msgs/JointState.
-// Errors      Sample(): kNotFound for a joint that the robot does not have.
+// Errors      Sample(): kNotFound if the robot has no such joint of these kinds.
 #pragma once
 
 #include "gsv/sensing/registry.h"

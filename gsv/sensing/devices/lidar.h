@@ -12,8 +12,9 @@
 //   scan.vertical.*         the same parameters for the rows (1 sample at 0); if there is only one
 //                           row, it is at min_angle
 //   range.min (0.08 m), range.max (10 m); range.resolution has no effect, as in Gazebo
-//   noise (m)               see noise.h. Each beam has its own bias. A dropout reads as no hit, and
-//                           noise does not move a range beyond the limits.
+//   noise (m)               see noise.h. Each beam has its own bias. A dropout reads as no hit.
+//                           Noise does not move a range beyond range.max. White noise alone does
+//                           not move it below range.min.
 //   intensity_scale (0), intensity_range (0 m)   see below
 // Intensity   if intensity_scale is above 0, the reading has the intensities of all beams after the
 //             ranges. An intensity is intensity_scale × reflectance × cosine of the angle of

@@ -6,7 +6,7 @@
 // Parameters  (with their default values)
 //   noise.position.stddev (0 m)        Gaussian noise of x, y and z
 //   noise.orientation.stddev (0 rad)   Gaussian noise of the yaw
-// Message     geometry_msgs/PoseStamped in the frame "world".
+// Message     geometry_msgs/PoseStamped in the frame "map".
 #pragma once
 
 #include "gsv/sensing/registry.h"

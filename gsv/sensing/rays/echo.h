@@ -26,8 +26,9 @@ void FindEchoes(const RayScene& scene, std::span<const Ray> rays, int ignored_bo
 
 // Returns the reflectance of the collision with this index. This is the luminance (ITU-R BT.709,
 // linear light) of the base colour of a visual. The visual is the one with the collision's name. If
-// there is none, it is the visual with the same index, or else the first visual. For a texture, the
-// mean of some of its pixels is used. The reflectance of a link without visuals is 0.5.
+// there is none, it is the visual with the same index, or else the first visual. If the visual has
+// a texture, the luminance is multiplied by the mean luminance of some of its pixels. Without a
+// visual or without a material, the reflectance is 0.5.
 double ReflectanceOf(const model::Link& link, std::size_t collision);
 
 }  // namespace gsv::sensing
