@@ -7,8 +7,8 @@
 //   gsv-wander --broker REF &
 //   example-real-robot --broker REF
 //
-// Exits with 0 if the behaviour read the sonar, drove, and stayed away from the wall; otherwise
-// with 1.
+// Exits with 0 if the behaviour read the sonar, drove, and stayed away from the wall, else with 1.
+// Exits with 2 after a usage error, and with 5 if the behaviour cannot be called.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -39,7 +39,7 @@ class CycleClient {
                                                          std::uint64_t offset, std::uint64_t key);
 
   // Runs a cycle and waits for its answer. For a cycle of sleep_and_read(), `sensors` are the names
-  // of the sensors to read. Changes `answer` only if the outcome is kAnswered.
+  // of the sensors to read. `answer` is valid only if the outcome is kAnswered.
   Outcome Run(exchange::CycleRequest request, const std::vector<std::string>& sensors,
               Answer& answer);
   // Lets a waiting Run() return kRepeat or kRepeatApplied.

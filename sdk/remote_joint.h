@@ -13,7 +13,7 @@
 namespace gsv::sdk {
 
 // ListRemoteJoints() and OpenRemoteJoint() pass on exceptions of the hardware. They throw
-// sba::Refused if the hardware has no joints that take commands.
+// sba::Refused if the hardware does not implement sba::JointedHardware.
 std::vector<JointTraits> ListRemoteJoints(sba::Hardware_ptr hardware);
 // `robot` must outlive the joint.
 std::unique_ptr<Joint> OpenRemoteJoint(RemoteRobot& robot, sba::Hardware_ptr hardware,

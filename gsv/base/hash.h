@@ -1,6 +1,6 @@
 // An incremental hash of bit patterns, equal on every x86-64 machine (XXH3, 64 bits).
 //
-// Add() takes single scalars only, so that padding and pointers cannot affect the hash.
+// Add() takes only scalars and texts, so that padding and pointers cannot affect the hash.
 #pragma once
 
 #include <bit>

@@ -3,7 +3,8 @@
 //
 // Source       Philox4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1,
 //              2, 3", SC 2011. Tests compare with the paper's published values.
-// Determinism  integer arithmetic only, except Gaussian(), which uses libm's log, sin and cos.
+// Determinism  integer arithmetic only, except Uniform(), whose conversion is exact, and
+//              Gaussian(), which uses libm's log and cos.
 #pragma once
 
 #include <array>

@@ -31,10 +31,11 @@ class ThreadTeam {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  // Calls work(begin, end) for pieces of [0, count) with at most `grain` indices each, and returns
-  // when all calls have returned. If there is only one piece, the caller processes it and no worker
-  // is woken. `work` does not throw and calls no ParallelFor() itself. It may have a third
-  // parameter: the index of the calling thread, from 0 to threads() - 1.
+  // Calls work(begin, end) for pieces of [0, count) with at most `grain` indices each (with one
+  // thread: for the whole range), and returns when all calls have returned. If there is only one
+  // piece, the caller processes it and no worker is woken. `work` does not throw and calls no
+  // ParallelFor() itself. It may have a third parameter: the index of the calling thread, from 0 to
+  // threads() - 1.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {
@@ -73,7 +74,7 @@ class ThreadTeam {
   void WaitForWorkers();
   // Processes pieces of the open job until none is left, and then closes the job.
   void RunPieces(std::size_t self);
-  // Waits for an open job and processes pieces of it. Returns false when the team ends.
+  // Waits for an open job and joins it. Returns false when the team ends.
   bool Join();
   // Adds the calling thread to the workers of the open job. ParallelFor() waits for all these
   // workers. Returns false if no job is open.

@@ -42,7 +42,8 @@ class Broker {
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
 
-  // The address at which clients reach the broker: "corbaloc::1.2@HOST:PORT/TradingService".
+  // The address at which clients reach the broker: "corbaloc::1.2@HOST:PORT/TradingService", or
+  // with TLS "corbaloc:ssliop:1.2@HOST:PORT/TradingService".
   const std::string& reference() const;
   // The port on which the broker listens, also if the system chose it.
   std::uint16_t port() const;

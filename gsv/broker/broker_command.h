@@ -17,9 +17,9 @@ struct BrokerCommand {
 };
 
 // Prints the reference as one line on stdout. Then serves requests until SIGINT, SIGTERM or SIGHUP,
-// or until `parent` ends. The process must have no other thread. Returns the exit code: 0 normally;
-// 130 after SIGINT; 2 for an invalid argument; 5 after any other error. Errors are printed on
-// stderr.
+// or until `parent` ends. The process must have no other thread. Returns the exit code, or ends
+// the process with it: 0 normally; 130 after SIGINT; 2 for an invalid argument; 5 after any other
+// error. Errors are printed on stderr.
 int BrokerMain(const BrokerCommand& command);
 
 }  // namespace gsv::broker

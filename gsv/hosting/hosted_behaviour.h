@@ -1,8 +1,9 @@
 // Runs a gsv::Behaviour in this process, for one robot of one simulation. The same behaviour can
 // also run as a program, with the same results.
 //
-// A turn is the part of a behaviour between two waits. The turns of a Controller are plain function
-// calls. Any other behaviour runs on a fibre, and each wait suspends the fibre.
+// A turn is the part of a behaviour between two waits. The turns of a Controller whose open
+// sensors are all fast are plain function calls. Any other behaviour runs on a fibre, and each wait
+// suspends the fibre.
 #pragma once
 
 #include <atomic>
@@ -47,11 +48,11 @@ class alignas(64) HostedBehaviour final : public simulation::LocalBehaviour {
   base::Mutex mutex_;  // held during a turn
   std::unique_ptr<LocalRobot> robot_ GSV_GUARDED_BY(mutex_);
   std::atomic<simulation::ClockId> clock_ = 0;
-  // The started behaviour if it is a Controller, which needs no fibre; else null.
+  // The started behaviour if it is a Controller that needs no fibre; else null.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);   // the instant of a controller's next turn
   const void* sweeps_ GSV_GUARDED_BY(mutex_) = nullptr;  // see LocalRobot::sweeps()
-  // The fibre of a started behaviour; null for a Controller, which needs no fibre.
+  // The fibre of a started behaviour; null if controller_ is set.
   std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
 
   std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);

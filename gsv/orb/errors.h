@@ -14,8 +14,8 @@ namespace gsv::orb {
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 
-// Returns why the TLS connection of the last call failed, if certificates were the reason, else an
-// empty text. Call it once, on the thread that made the call.
+// Returns why the last call got no TLS connection, or an empty text if TLS was not the reason.
+// Call it once, on the thread that made the call.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
 // Deletes the stored reason of an earlier failed connection, so that WhyNotConnected() describes
 // the next call only. Call this before a remote call, on the same thread.

@@ -1,8 +1,8 @@
 // Lets ROS 2 nodes step robots in lockstep. A step waits for the command that has the time stamp of
 // the last /clock.
 //
-// A node answers each /clock with a TwistStamped of the same time. Commands with another time are
-// ignored.
+// A node answers each /clock with a TwistStamped of the same time. Commands with an earlier time
+// are ignored.
 //
 // Threads  any.
 #pragma once

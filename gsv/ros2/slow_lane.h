@@ -23,7 +23,7 @@ class SlowLane {
   ~SlowLane();
 
   // Enqueues sources, which must exist until the next Drain(). If `waits` is true, first waits
-  // until the queue is empty.
+  // like Drain().
   void Offer(std::vector<Source*> sources, const Moment& moment, bool waits);
   // Waits until all enqueued sources are published.
   void Drain();

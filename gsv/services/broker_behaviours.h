@@ -1,5 +1,5 @@
-// Creates behaviours from the broker's offers. Several programs may match; the program that serves
-// the fewest robots is chosen.
+// Creates behaviours from the broker's offers. Several programs may match; the program that has
+// got the fewest robots from this object so far is chosen.
 #pragma once
 
 #include <map>
@@ -23,14 +23,14 @@ class BrokerBehaviours final : public BehaviourSource {
   std::shared_ptr<StopTimeout> stop_timeout() const override { return stop_timeout_; }
 
  private:
-  // Adds `change` to the number of robots that the program at `place` serves.
+  // Adds `change` to the number of robots that the program at `place` has got.
   void CountRobot(const std::string& place, int change);
 
   broker::BrokerClient& broker_;
   PortableServer::POA_var poa_;
   const std::shared_ptr<StopTimeout> stop_timeout_ = std::make_shared<StopTimeout>();
   base::Mutex mutex_;
-  // number of robots that a program serves, by "host:pid"
+  // number of robots that a program has got so far, by "host:pid"
   std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);
 };
 

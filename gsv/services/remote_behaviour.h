@@ -53,8 +53,8 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   const BehaviourIdentity identity_;
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
-  const std::shared_ptr<const StopTimeout> stop_timeout_;  // null for the normal limit
-  bool has_not_stopped_ = false;  // whether the behaviour did not answer stop() in time
+  const std::shared_ptr<const StopTimeout> stop_timeout_;
+  bool has_not_stopped_ = false;  // whether the last call of stop() failed
   base::Mutex mutex_;
   // The robot's hardware objects; null before Init().
   std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);

@@ -80,7 +80,7 @@ class SimulationServant final : public POA_sba::Simulation {
   std::atomic<std::chrono::steady_clock::duration> last_contact_;
 };
 
-// Creates simulations and lists them. Destroys simulations whose creator no longer calls them.
+// Creates simulations and lists them. Stops simulations that no client calls any more.
 class SimulationServiceServant final : public POA_sba::SimulationService {
  public:
   // `host` and `behaviours` must outlive the object. If `behaviours` is null, clients must pass
@@ -108,7 +108,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   // Makes the CORBA object of a simulation.
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
-  // The function of the janitor thread, which destroys abandoned simulations and returns memory to
+  // The function of the janitor thread, which stops abandoned simulations and returns memory to
   // the system.
   void RunJanitor();
 

@@ -37,10 +37,10 @@ class Joint {
   virtual ~Joint() = default;
   virtual const JointTraits& traits() const = 0;
 
-  // Each command applies until the next one. MoveTo() respects the joint's velocity limit and
-  // effort limit. MoveAt() and Apply() respect its effort limit. After Release(), only damping and
-  // friction act on the joint. A value that is NaN or infinite is not applied: the call throws
-  // std::invalid_argument, and the behaviour may continue.
+  // Each command applies until the next one. MoveTo(), MoveAt() and Apply() respect the joint's
+  // velocity limit and effort limit. After Release(), only damping and friction act on the joint. A
+  // value that is NaN or infinite is not applied: the call throws std::invalid_argument, and the
+  // behaviour may continue.
   virtual void MoveTo(double position) = 0;
   virtual void MoveAt(double velocity) = 0;
   virtual void Apply(double effort) = 0;

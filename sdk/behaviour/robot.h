@@ -39,7 +39,7 @@ class Robot {
   virtual const std::string& name() const = 0;
   // The radius in m of a circle about the robot's origin that contains the robot.
   virtual double footprint_radius() const = 0;
-  // Returns the sensors of the robot's model.
+  // Returns the sensors of the robot's model, and the sensors that were created.
   virtual std::vector<SensorTraits> Sensors() = 0;
 
   // Opens a sensor of the robot's model. Fails if it does not exist or has another type.

@@ -37,8 +37,8 @@ inline double ProcessorTime(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the `q`-quantile of the values (nearest rank): 0.5 for the median, 0.99 for the 99th
-// percentile. Returns 0 if there are no values.
+// Returns the `q`-quantile: of n sorted values, the value at index q n (rounded down). `q` is 0.5
+// for the median, 0.99 for the 99th percentile. Returns 0 if there are no values.
 inline double QuantileOf(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());

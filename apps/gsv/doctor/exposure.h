@@ -30,7 +30,8 @@ Exposure Probe(const Listener& listener);
 // no change is needed.
 std::string ExposureWarning(const Listener& listener, const Exposure& exposure);
 
-// Prints one line per socket. Returns kOk if there is no warning.
+// Prints the sockets of each process; with `json`, one JSON object per process. Returns kOk if there
+// is no warning.
 int PrintExposure(bool json);
 
 }  // namespace gsv::app

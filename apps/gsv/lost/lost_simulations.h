@@ -2,8 +2,8 @@
 // a note of its simulations (server_note.h), which remains after a kill. The next server with the
 // same folder of recordings takes over the note. This class also writes the note of this server.
 //
-// Threads  any. One thread writes the note after changes, at most twice a second. Another thread
-//          reads the recordings, which may take long.
+// Threads  any. One thread writes the note twice a second. Another thread reads the recordings,
+//          which may take long.
 // Bounded  to the newest kMaxKept reports.
 #pragma once
 
@@ -56,7 +56,7 @@ class LostSimulations {
   void Keep(std::vector<LostSimulation> lost);
   // The function of examiner_: reads the recordings of the lost simulations, and logs each.
   void Examine(const std::stop_token& stop);
-  // The function of watcher_: writes the note of this server after changes.
+  // The function of watcher_: writes the note of this server twice a second.
   void WatchOver(const std::stop_token& stop);
   // Writes the note of this server.
   void Write();
@@ -66,7 +66,7 @@ class LostSimulations {
   services::SimulationHost& host_;
   gateway::RecordingSwitch& recordings_;
   std::filesystem::path file_;  // path of this server's note; empty if it cannot be written
-  ServerNote note_;             // the content that was last written to file_; used only by watcher_
+  ServerNote note_;             // the note without its simulations; does not change
   bool could_write_ = true;     // false after a failed write, so that the failure is logged once
   mutable base::Mutex mutex_;   // guards lost_ and next_
   // never notified; the threads wait on it until they are stopped

@@ -1,7 +1,7 @@
 // Reads the output of child processes line by line on its own thread, so that no child blocks on a
 // full pipe.
 //
-// Bounded  a line has at most 16 KiB; a longer line is split.
+// Bounded  a line has at most 20 KiB; a longer line is split.
 // Threads  Add() and the destructor from one thread; the callbacks run on the reader's thread.
 #pragma once
 

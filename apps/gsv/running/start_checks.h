@@ -12,8 +12,8 @@ namespace gsv::app {
 // Warns of a heading of more than 2 pi, which was probably given in degrees, and of a start far
 // from all bodies of the world. Also warns of a start outside the walls that enclose the world, and
 // of a robot under rigid-body dynamics without ground below it. `snapshot` is the world with the
-// robots. Ignores entries without a start, and entries whose name is not in the world. Each
-// sentence is about one entry.
+// robots. Ignores entries without a start. Checks only the heading of entries whose name is not in
+// the world, and of entries after the first 200. Each sentence is about one entry.
 base::Problems CheckStarts(const std::shared_ptr<const world::Snapshot>& snapshot,
                            const scenario::Scenario& scenario);
 

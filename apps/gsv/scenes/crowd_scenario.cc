@@ -16,7 +16,8 @@ constexpr double kBoxSide = 1;        // in m
 constexpr double kWallHeight = 1;     // in m
 constexpr double kWallThickness = 0.2;
 
-// A square grid. Each robot starts in its own cell. Every second corner inside the grid has a box.
+// A square grid. Each robot starts in its own cell. In both directions, every second corner
+// inside the grid has a box.
 struct Raster {
   explicit Raster(int robots)
       : columns(static_cast<int>(std::ceil(std::sqrt(robots)))),

@@ -34,9 +34,10 @@ class BehaviourLauncher {
   // See BehaviourOutput::WaitForOutput().
   void WaitForOutput() { output_.WaitForOutput(); }
 
-  // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
-  // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`
-  // is a name and, after spaces, options for the program. The whole text is the name of the offer.
+  // Makes sure that the behaviour is offered. If it is not, starts `programs` processes (at most
+  // 64) of gsv-NAME, which is beside this program or on PATH, and waits until they offer it.
+  // `behaviour` is a name and, after spaces, options for the program. The whole text is the name of
+  // the offer.
   base::Status Ensure(const std::string& behaviour, int programs);
 
  private:

@@ -1,5 +1,5 @@
-// Finds the running programs of GSV of this user, and the addresses on which they listen, in /proc
-// (proc(5)).
+// Finds this user's running programs gsv and gsv-NAME that are in the folder of this program, and
+// the addresses on which they listen, in /proc (proc(5)).
 #pragma once
 
 #include <sys/types.h>

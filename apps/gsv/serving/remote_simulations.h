@@ -49,8 +49,8 @@ base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& sele
 // newest instance. Fails if several simulations match.
 base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
-// Returns the selected instance, even if it runs no simulation. If nothing is selected, it is this
-// user's newest instance.
+// Returns the selected instance, even if it runs no simulation. If nothing is selected, it is
+// the first offer at the broker of this user's newest instance.
 base::Result<RemoteServer> FindOneInstance(const Selection& selection);
 
 // A server that a broker offers, with its simulations.

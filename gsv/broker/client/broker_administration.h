@@ -37,8 +37,7 @@ class BrokerAdministration {
 
   // Lists the links by name. This process, and not the broker, calls each target.
   [[nodiscard]] base::Result<std::vector<LinkDescription>> ListLinks() const;
-  // Adds a link. `target` is another broker's address. If `target` is an "IOR:…" with a type id,
-  // the other broker need not be running.
+  // Adds a link. `target` is the address of another broker, which must be running.
   [[nodiscard]] base::Status AddLink(const std::string& name, const std::string& target,
                                      FollowOption def_pass_on, FollowOption limiting) const;
   [[nodiscard]] base::Status RemoveLink(const std::string& name) const;

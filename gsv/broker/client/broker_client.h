@@ -4,7 +4,7 @@
 // whose sentence names the broker's address.
 //
 // Errors   kInvalidArgument for a wrong argument. For a wrong constraint, the error contains the
-//          position in the text. kNotFound if there is no such service type, offer or property.
+//          position in the text. kNotFound if there is no such service type or offer.
 //          kUnavailable if nothing answers at the address, kTimeout if the answer is late.
 // Threads  every member may be called at any time.
 #pragma once

@@ -21,8 +21,8 @@ base::Error ErrorOfCurrentException(const std::string& where);
 //
 // Threads  any.
 struct CallCounts {
-  // The number of calls, and the number of calls that returned an error. `made` includes the failed
-  // calls. A call that GuardedRepeatable() repeats adds 2 to `made`.
+  // The number of calls, and the number of calls that threw an exception of CORBA. `made` includes
+  // the failed calls. A call that GuardedRepeatable() repeats adds 2 to `made`.
   std::atomic<std::uint64_t> made{0}, failed{0};
 };
 // Returns the counts of this process.

@@ -20,7 +20,8 @@ namespace gsv::orb {
 using base::CdrReader;
 
 struct TypeCodeLimits {
-  std::size_t depth = 64;  // maximum nesting of types and values together
+  // maximum nesting of types, and of values around an any; other values may nest twice as deep
+  std::size_t depth = 64;
   // maximum number of types in one message; each reference to a type counts again
   std::size_t types = 4096;
   // maximum number of values in one message; elements of sequences and arrays do not count if their
@@ -58,7 +59,7 @@ class TypeCodeCheck {
   // part. Functions that return an index return an index in types_; if `in` has failed, this type
   // has no meaning.
   std::size_t ReadTypeCode(CdrReader& in, std::size_t depth);
-  // Reads a reference to a TypeCode earlier in the message.
+  // Reads a reference to an earlier part of the same TypeCode.
   std::size_t Repeated(CdrReader& in);
   void ReadParameters(Type& type, CdrReader in, std::size_t depth);
   void ReadMembers(Type& type, CdrReader& in, std::size_t depth);

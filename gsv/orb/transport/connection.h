@@ -61,11 +61,11 @@ class Connection : public omni::giopConnection,
 
  protected:
   // Makes a connection that this process has opened.
-  // The common part of the two constructors above.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              const ConnectionPolicy& policy);
 
  private:
+  // The common part of the two constructors above.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const MessageLimits& limits);
   // Reads the next bytes into incoming_. Returns the same values as Recv().

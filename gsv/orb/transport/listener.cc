@@ -41,8 +41,8 @@ class PendingHandshake : public omni::SocketHolder {
 
   TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
   std::string failure() const { return channel_->failure(); }
-  // Reads the unread bytes first. If a socket with unread bytes is closed, the peer does not
-  // receive the last data that were sent to it.
+  // The unread bytes are read before the socket is closed. If a socket with unread bytes is closed,
+  // the peer does not receive the last data that were sent to it.
   void Refuse(const std::string& why) {
     constexpr std::string_view kScheme = "giop:ssl:";
     spdlog::warn("refused a CORBA connection from {}: {}", addresses_.peer.substr(kScheme.size()),

@@ -57,7 +57,7 @@ class Listener {
   std::deque<Connection*> accepted_;  // accepted connections that the ORB does not know yet
   // ordered from the oldest to the newest
   std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;
-  std::unique_ptr<Alarm> alarm_;  // set if there are pending handshakes
+  std::unique_ptr<Alarm> alarm_;  // null without TLS; rings while there are pending handshakes
   // The arguments of the current Await().
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;

@@ -39,7 +39,7 @@ class TlsChannel final : public Channel {
   Step Handshake();
   // Waits for the handshake. Returns whether it was completed before `deadline`.
   bool AwaitHandshake(const omni_time_t& deadline, bool& timed_out);
-  // The reason of the failure, as a clause about the peer, such as "it shows no certificate".
+  // The reason of the failure, as a clause about the peer, such as "it sends no certificate".
   std::string failure() const;
 
   ssize_t TryReceive(void* buffer, std::size_t size) override;

@@ -12,8 +12,8 @@
 // Threads  Offer…(), Advertise() and the destructor from one thread; other functions from any.
 //          Handlers run on the threads of the host: one thread for each lane, but kQuick and kLists
 //          share a thread. So slow requests do not delay quick ones.
-// Bounded  at most 10,000 requests wait; further requests are dropped, and the first of them is
-//          logged.
+// Bounded  at most 10,000 requests wait for each thread; further requests are dropped, and the
+//          first of each service is logged.
 #pragma once
 
 #include <atomic>
