@@ -42,8 +42,8 @@ struct Campaign {
   // runs go through all combinations of the lists, and do so `draws` times. The value of the last
   // list changes with each run. Each run has its own random values.
   std::vector<std::string> ValuesOf(std::size_t run) const;
-  // Returns the scenario with these values, as YAML. Fails if the scenario does not have the path
-  // of a parameter.
+  // Returns the scenario with these values, as YAML. Adds the last key of a path if it does not
+  // exist. Fails if the scenario does not have the other parts of the path.
   base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
   // Returns a text of all properties that affect the runs. Equal texts mean equal runs.
   std::string Definition() const;

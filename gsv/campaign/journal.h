@@ -3,8 +3,8 @@
 //
 // Format   lines of 16 hexadecimal digits (base::Hash of the rest), a space and a JSON object. The
 //          first is {"attempt": …}. Then come {"begun": RUN} and {"result": …}, and {"end": true}
-//          when the attempt has ended. A line with a wrong hash or without its newline is
-//          incomplete and is ignored.
+//          when the attempt has ended. These also have the key "at", a time in s since 1970. A line
+//          with a wrong hash or without its newline is incomplete and is ignored.
 #pragma once
 
 #include <cstdint>

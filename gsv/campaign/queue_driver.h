@@ -33,7 +33,8 @@ struct QueueDriver {
   std::function<bool(std::chrono::milliseconds)> is_interrupted;
 
   // Submits the runs. Then, if `waits` is true, blocks until the results contain all runs, or until
-  // the user interrupts it. After an interrupt, the tasks in the queue continue.
+  // the user interrupts it. After an interrupt, the tasks continue if the engine outlives the
+  // driver (EngineType::outlives_driver).
   base::Status Run(Spool& spool, Results& results) const;
 };
 

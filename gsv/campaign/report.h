@@ -34,11 +34,12 @@ Report MakeReport(const std::vector<RunResult>& results, std::vector<std::string
                   const std::vector<std::string>& parameters, std::vector<std::string> metrics);
 
 std::string ToText(const Report& report);
-// Draws a bar chart: the fraction of passed runs in each group.
+// Draws a chart: the fraction of passed runs in each group, with its 95 % interval.
 std::string ToSvg(const Report& report);
 // Returns the report as one HTML page without further files.
 std::string ToHtml(const Report& report);
-// Returns one line per run: run, parameters, status, state_hash, times, metrics (RFC 4180).
+// Returns a header and one line per run: run, parameters, status, state_hash, times, recording,
+// message, metrics (RFC 4180).
 std::string ToCsv(const std::vector<RunResult>& results,
                   const std::vector<std::string>& parameters);
 

@@ -56,9 +56,9 @@ struct Attempt {
 class Results {
  public:
   // Opens the file for a driver, and creates it if it does not exist. Fails for a file of another
-  // campaign, and for a file that contains no results. If another process writes the file, waits up
-  // to `timeout`, then fails with kNotRunning. The wait is useful if the other process only
-  // collects results, because it needs the file for a short time only.
+  // campaign, and for a file that is not an SQLite database. If another process writes the file,
+  // waits up to `timeout`, then fails with kNotRunning. The wait is useful if the other process
+  // only collects results, because it needs the file for a short time only.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
       std::chrono::milliseconds timeout = std::chrono::milliseconds(0));

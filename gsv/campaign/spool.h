@@ -5,9 +5,9 @@
 //          batch-0001.json      a submitted batch: its runs, and the number of runs per task
 //          journals/*.journal   the journals of attempts, one file each (journal.h)
 //          logs/                the output of tasks
-//          Files other than journals are written atomically by renaming. Each file is
-//          written by one machine only, so that no lock is needed. A run may be in several
-//          journals.
+//          Files other than journals are written atomically by renaming. No lock is needed:
+//          each file is written by one machine only, or has the same content from all
+//          machines (plan.json). A run may be in several journals.
 // Threads  one at a time.
 #pragma once
 
@@ -83,7 +83,8 @@ class Spool {
   std::map<std::string, JournalReader> readers_;
 };
 
-// Copies new entries of the spool's journals to the results. Returns the number of added runs.
+// Copies new entries of the spool's journals to the results. Returns the number of copied runs,
+// including runs that already had a result.
 base::Result<std::size_t> Gather(Spool& spool, Results& results);
 
 }  // namespace gsv::campaign

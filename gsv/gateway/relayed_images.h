@@ -1,7 +1,8 @@
 // RelayedImages serves streams of images (view.mjpeg) through a relay. It requests one image after
 // another from the other instance, and sends them as its own stream.
 //
-// Threads  any. This object's own thread pool makes the requests to the other instance.
+// Threads  any. Open() requests the first image of a stream on the caller's thread, and this
+//          object's own thread pool requests the others.
 // Bounded  kMaxImageStreams streams.
 #pragma once
 

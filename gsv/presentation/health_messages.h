@@ -9,8 +9,8 @@ namespace gsv::presentation {
 
 // Makes the message. It lists only robots that do not move.
 messages::gsv_msgs::Health HealthMessage(const health::Report& report);
-// Returns true if `message` must be sent: if it differs from `sent`, the message that was sent
-// last, in more than the time and the actual motion.
+// Returns true if `message` must be sent: if a count, or a robot's state, level, `since`, contact,
+// limit_value or reason differs from `sent`, the message that was sent last.
 bool NeedsSending(const messages::gsv_msgs::Health& message,
                   const messages::gsv_msgs::Health& sent);
 

@@ -14,8 +14,9 @@ messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
 // Returns an event as a log message. Its name is the robot, or "gsv" if the event concerns no
 // robot. For a line that a behaviour prints, the text is the line, and `file` is the stream. Its
-// level is information for stdout, and warning for stderr. Failures of a behaviour or the
-// simulation are errors. Failed requests are warnings.
+// level is information for stdout, and warning for stderr. A dead behaviour, a program that ends
+// without exit code 0, a failed simulation and a violated expectation are errors. An unresponsive
+// or silent behaviour and a moved robot are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
 // Returns the diagnostics of the simulation, followed by those of each robot, ordered by name. The

@@ -33,12 +33,12 @@ void AppendSensorTransform(const world::Layout& layout, int body,
 // They draw a sensor's points only if the model file sets <visualize> for the sensor.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
-// Collects the lines of all robots at one instant. The message has a marker for each robot, and a
-// deletion for each robot that no longer has lines. The next kDeletions messages repeat the
-// deletion, because a viewer with a slow connection gets only some of the messages.
+// Collects the lines of all robots at one instant. The message has a marker for each robot. After a
+// robot has no more lines, kDeletions messages contain a deletion for it, because a viewer with a
+// slow connection gets only some of the messages.
 class BeamMarkers {
  public:
-  static constexpr int kDeletions = 45;  // number of further messages that repeat a deletion
+  static constexpr int kDeletions = 45;  // number of messages that contain a deletion
 
   // Adds the lines of a reading: its beams, or short dashes at its points. `body` is the robot's
   // index in the snapshot's layout.
@@ -55,7 +55,7 @@ class BeamMarkers {
   int body_ = -1;
   int link_ = -1;
   geometry::Pose world_from_link_;
-  // For each robot that had lines: the number of messages that will repeat the deletion of these
+  // For each robot that had lines: the number of messages that will contain the deletion of these
   // lines after the robot has no more lines.
   std::map<std::string, int> deletions_left_;
 };

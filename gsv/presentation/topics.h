@@ -57,7 +57,7 @@ inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
 inline constexpr TopicOf<messages::gsv_msgs::PackedPoses> kPackedPoses{"/gsv/packed_poses"};
 // Transforms of bodies and of their moving links.
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
-// Transforms of sensors relative to their links. They do not change.
+// Transforms of sensors relative to their robots or moving links. They do not change.
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
 // Lines that viewers draw for the readings of sensors.
 inline constexpr TopicOf<messages::visualization_msgs::MarkerArray> kBeams{"/gsv/beams"};

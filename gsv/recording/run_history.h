@@ -1,12 +1,12 @@
 // Keeps the last minutes of a running simulation in memory, readable as a recording.
 //
 // A thread of the owner samples the simulation at rates of wall-clock time, so that sampling a fast
-// run takes as much time as sampling a slow run. Sampling takes at most 1/20 of that thread's time
-// while a viewer is connected, and 1/50 otherwise. The stepping thread only stores the events and
-// the collisions of each step.
+// run takes as much time as sampling a slow run. Each kind of sample (poses, status, readings, list
+// of sensors) takes at most 1/20 of that thread's time while a viewer is connected, and 1/50
+// otherwise. The stepping thread only stores the events and the collisions of each step.
 //
-// Records      Events, log, output, notes, commands and collisions are always recorded. Poses and
-//              status are recorded at a low rate. While a viewer is connected, the rate is higher,
+// Records      Events, log, output, notes and collisions are always recorded. Poses, commands and
+//              status are sampled at a low rate. While a viewer is connected, the rate is higher,
 //              and health, sensor readings (no images) and beams are added.
 // One run      a reset of the simulation starts a new history.
 // Threads      SampleIfDue() from one thread; other functions from any.

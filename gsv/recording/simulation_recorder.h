@@ -55,7 +55,8 @@ class SimulationRecorder {
   // Returns the error that ended the recording early, if there was one.
   base::Status Stop();
 
-  // Whether the recording continues. A recording ends when the simulation ends or the disk fails.
+  // Whether the recording continues. A recording ends at Stop(), when the simulation is reset or
+  // destroyed, and when the disk fails.
   bool is_recording() const;
   McapWriter::Progress progress() const { return writer_->progress(); }
 

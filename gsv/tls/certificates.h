@@ -2,8 +2,8 @@
 //
 // Files    PEM. Only the owner can read a key. Existing files are never overwritten.
 // Keys     elliptic, P-256; signatures with SHA-256. X.509 version 3 (RFC 5280).
-// Errors   kInvalidArgument: a name that cannot be part of a file name; kUnavailable: a file cannot
-//          be written or read, or exists already.
+// Errors   kInvalidArgument: an invalid name or host, or a certificate or key that a check refuses;
+//          kUnavailable: a file cannot be written or read, or exists already, or OpenSSL fails.
 #pragma once
 
 #include <chrono>
@@ -42,7 +42,7 @@ base::Status MakeCertificate(const std::filesystem::path& folder,
 // valid now. The error names the file.
 base::Status CheckKeyPair(const std::filesystem::path& certificate,
                           const std::filesystem::path& key);
-// Checks that the file contains certificates of an authority.
+// Checks that the first certificate in the file belongs to an authority and is valid now.
 base::Status CheckAuthority(const std::filesystem::path& certificate);
 
 }  // namespace gsv::tls

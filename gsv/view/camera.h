@@ -27,8 +27,9 @@ struct Camera {
   // Position of the camera, and a point at the centre of the image. Not set: the default of the
   // view, or of the followed robot.
   std::optional<geometry::Vector3> eye, target;
-  std::optional<double> field_of_view;  // vertical angle in degrees; default: 45
-  std::string follow;                   // name of a robot; empty if the camera follows none
+  // Vertical angle in degrees. Default: 45, but the default view is 0.8 rad wide.
+  std::optional<double> field_of_view;
+  std::string follow;  // name of a robot; empty if the camera follows none
   // "ROBOT/CAMERA": use the view of this camera sensor; empty for none.
   std::string sensor;
   OverviewSide side;  // direction of the default view
@@ -40,14 +41,15 @@ struct Camera {
 base::Status SetSize(std::string_view text, Camera& camera);
 // Checks each side of the image like SetSize().
 base::Status CheckSize(int width, int height);
-// Parses "1,2.5,-3": three finite numbers. An error message contains `name`.
+// Parses "1,2.5,-3": three numbers from -1e6 to 1e6. An error message contains `name`.
 base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::string& name);
 // Parses a finite number from kMinFieldOfView to kMaxFieldOfView.
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, OverviewSide& side);
-// Fails if there is only one of eye and target, unless the camera follows a robot. Also fails if
-// there is a camera sensor together with an eye, a target, a followed robot or a field of view.
+// Fails if a parameter is invalid, or if parameters exclude each other. For example, eye and target
+// need each other unless the camera follows a robot. A camera sensor excludes an eye, a target, a
+// followed robot and a field of view.
 base::Status Check(const Camera& camera);
 
 // The view of a camera sensor at an instant.

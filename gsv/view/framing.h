@@ -11,8 +11,8 @@ namespace gsv::view {
 
 // Returns the corners, in the world, of the boxes around the visible bodies. It omits infinite
 // planes, ground that extends far beyond the bodies on it, and very distant bodies: with them in
-// view, the other bodies would be too small to see. If no body remains, returns a box of 2 m about
-// the origin.
+// view, the other bodies would be too small to see. If no body remains, returns two corners of a
+// box of 2 m x 2 m x 1 m on the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
 // The direction of a view of the whole world, and its zoom.

@@ -13,8 +13,8 @@ namespace gsv::gateway::access {
 
 // The credentials of a request.
 struct Credentials {
-  // the token of "Authorization: Bearer TOKEN", or of a WebSocket's "?token=TOKEN"; empty if there
-  // is none
+  // the token of "Authorization: Bearer TOKEN", or of "?token=TOKEN" in the address of a WebSocket
+  // or an image; empty if there is none
   std::string token;
 };
 

@@ -22,7 +22,7 @@ struct RobotToAdd {
   bool is_avatar = false;
 };
 // Parses {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar,
-// drive, avatar}. Only `model` is required.
+// drive, avatar}. Either `model` or the `name` of a robot of the world file is required.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 
 // Parses {x, y, z, roll, pitch, yaw}. x and y are required.

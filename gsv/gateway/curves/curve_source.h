@@ -36,7 +36,8 @@ class CurveSource {
 };
 
 // Makes the source of a curve. `reader` and `scene` must outlive the source. Fails with kNotFound
-// if the recording has no such topic or robot, and with kInvalidArgument if there is no such value.
+// if the recording has no such topic or robot, and with kInvalidArgument for another combination or
+// an unknown key of a robot or the simulation. An unknown key of a topic has no samples.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
                                                            const CurveRequest& request);

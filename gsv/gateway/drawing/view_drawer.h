@@ -2,8 +2,8 @@
 // do not wait for it.
 //
 // A viewer asks for the next image with the number of the last image that it got. So images are
-// drawn only if something has changed, and only as fast as the viewer requests them. Requests with
-// the same camera share one image.
+// drawn only if something has changed, and only as fast as the viewer requests them. Equal requests
+// share one image.
 //
 // Threads  any. Answers are called on the drawer's thread. The answer to a refused request is
 //          called on the thread of the caller.
@@ -29,7 +29,7 @@ namespace gsv::gateway::drawing {
 
 // Limits on the work of a ViewDrawer.
 struct DrawingLimits {
-  std::size_t views = 8;              // number of different cameras at the same time
+  std::size_t views = 8;              // number of different ViewRequests at the same time
   std::size_t viewers = 64;           // number of requests and streams at the same time
   std::int64_t pixels = 3840 * 2160;  // number of pixels of one image
 };
@@ -66,8 +66,8 @@ class ViewDrawer {
   ~ViewDrawer();
 
   // Reserves a Seat for one request or stream (see DrawingLimits::viewers). Destroying the Seat
-  // releases it. Fails with kUnavailable if no Seat is free, and with kInvalidArgument if the image
-  // is too large.
+  // releases it. Fails with kUnavailable if the limit of viewers or views is reached, and with
+  // kInvalidArgument if the image is too large.
   class Seat;
   base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
 

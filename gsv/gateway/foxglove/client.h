@@ -21,8 +21,8 @@ enum class CloseCode : std::uint16_t {
   kTryAgainLater = 1013,
 };
 
-// kEach: every message is sent. kNewest: a newer message replaces an unsent message of the same
-// subscription.
+// kEach: messages are dropped only if the queue is full. kNewest: an unsent message may be dropped
+// if a newer message of the same subscription is queued. See SendQueue.
 enum class Delivery { kEach, kNewest };
 
 // A connected viewer, to which the server sends messages.
@@ -32,14 +32,14 @@ class Client {
   // Sends control messages, none of which is dropped.
   virtual void SendText(SharedBytes text) = 0;
   virtual void SendBytes(SharedBytes bytes) = 0;
-  // Sends data; if the queue is full, the oldest data are dropped.
+  // Sends data. If the queue is full, older data are dropped (see SendQueue).
   virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload,
                         Delivery delivery) = 0;
   // Returns the number of dropped data messages so far.
   virtual std::uint64_t dropped_updates() const { return 0; }
   // Returns the rate of a slow connection in bytes per second; 0 if it is fast enough.
   virtual double slow_rate() const { return 0; }
-  // Returns an error with the reason if this viewer does not have control now.
+  // Returns an error with the reason if this viewer may not control the simulation now.
   virtual base::Status CheckControl() { return {}; }
   // Closes the connection, with this reason.
   virtual void Close(CloseCode code, std::string reason) = 0;

@@ -1,6 +1,6 @@
 // A Hub distributes the messages of one simulation to its clients. It stores the channels, the
 // clients and their subscriptions. The messages come from elsewhere: from a simulation of this
-// program, or from another instance.
+// program, from a recording, or from another instance.
 //
 // Threads  any; no call blocks. Clients are called with the hub's lock held, and must not call
 //          back.
@@ -123,7 +123,7 @@ class Hub {
   void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::Unsupported& message) GSV_REQUIRES(mutex_);
-  // Sends the client a warning as a status message.
+  // Sends the client an error as a status message.
   static void SendWarning(Member& member, std::string_view message);
   // Whether a client watches the connection graph.
   bool IsGraphWatched() const GSV_REQUIRES(mutex_);

@@ -18,7 +18,8 @@ namespace gsv::gateway {
 
 // An HTTP request with its complete body.
 struct Request {
-  // "GET" or "POST". A HEAD request arrives as GET, and its response is sent without the body.
+  // "GET", "POST", "PUT" or "DELETE". A HEAD request arrives as GET, and its response is sent
+  // without the body.
   std::string method;
   std::string raw_target;  // unparsed: "/api/simulations?x=1"
   Target target;

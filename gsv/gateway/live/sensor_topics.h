@@ -27,9 +27,9 @@
 
 namespace gsv::gateway {
 
-// A thousand robots have more topics than a viewer can list. The stream advertises the topics of
-// this many sensors, and of requested robots (WantedRobots). A status message reports that other
-// sensors have no topic.
+// A thousand robots have more topics than a viewer can list. The stream advertises about this many
+// topics of sensors, and the topics of requested robots (WantedRobots). A status message reports
+// that other sensors have no topic.
 inline constexpr std::size_t kMaxSensorTopics = 2000;
 
 // Publishes the live topics of sensors.

@@ -46,7 +46,7 @@ class RecordedTimeline {
   base::SimTime TimeOfPoseFrom(base::SimTime time, std::int64_t count) const;
 
   // Returns the first thousand events, the first thousand notes and the first 500 collisions,
-  // ordered by time. Of each of these kinds, it reads about 1 MiB of messages at most. The first
+  // ordered by time. The messages of each of these kinds have about 1 MiB at most. The first
   // call reads them from the recording.
   const std::vector<RecordedEvent>& Events() const;
 

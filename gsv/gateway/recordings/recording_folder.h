@@ -5,7 +5,8 @@
 // `gsv test` has written for a failed test. Such folders may also be in the subfolder gsv-failures.
 // Their names are then gsv-failures/NAME.
 //
-// Input    untrusted names and files. Other files, and links that leave the folder, are ignored.
+// Input    untrusted names and files. Other files are ignored. Symbolic links are ignored too,
+//          unless a single recording is served.
 // Threads  any. List() reads the index of each new file.
 // Bounded  the newest thousand recordings.
 #pragma once

@@ -1,7 +1,8 @@
 // ReplaySessions stores the open replays of recordings. Each replay has its own player, so that
 // viewers control their replays independently.
 //
-// A session ends half a minute after its last viewer has left.
+// Opening a replay, or a request to one, ends the sessions that no viewer has used for half a
+// minute.
 //
 // Threads  any; opening a recording reads its index.
 // Bounded  see SessionLimits.

@@ -34,7 +34,7 @@ class ReplayClock {
   base::Status Start();
   base::Status Pause();
   base::Status Resume();
-  // Advances by `time` and pauses.
+  // Advances by `time` and pauses. At the end, the phase is kFinished.
   base::Status Step(base::SimTime time);
   void Rewind();  // Returns to the start, in the phase kCreated.
   // Moves within the recording, and continues playing if it played.

@@ -1,8 +1,8 @@
 // A ReplayStream publishes the messages of a recording to a hub as the replay's time advances.
 //
-// Publish() sends the newest message of each topic, but every message of /gsv/events since the last
-// call. After a seek, earlier events are not sent. /clock and /gsv/status are made from the
-// replay's own time and status.
+// Publish() sends the newest message of each topic. PlayTo() sends every message of the topics with
+// presentation::Replay::kEach, such as /gsv/events. After a seek, earlier ones are not sent. /clock
+// and /gsv/status are made from the replay's own time and status.
 //
 // Threads  JumpTo(), PlayTo() and Publish() from one thread; the other functions from any.
 #pragma once

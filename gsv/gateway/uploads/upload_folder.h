@@ -22,7 +22,7 @@ namespace gsv::gateway::uploads {
 struct UploadLimits {
   std::size_t files = 5'000;                     // maximum number of files of all sets
   std::uint64_t bytes = std::uint64_t{1} << 30;  // maximum size of all sets
-  std::size_t depth = 12;                        // maximum depth of folders
+  std::size_t depth = 12;                        // maximum number of names in a path
 };
 
 // Stores uploaded files until the server ends.

@@ -17,8 +17,8 @@ base::Result<std::string> MakeBagFolder(const std::string& folder);
 // Writes metadata.yaml beside a complete recording.
 base::Status WriteBagMetadata(const std::string& file);
 
-// Returns the file of the recording at `path`: the file itself, or the first file (by name) of a
-// folder.
+// Returns the file of the recording at `path`: the file itself, or the first .mcap file (by name)
+// of a folder.
 std::string RecordingFile(const std::string& path);
 
 }  // namespace gsv::recording

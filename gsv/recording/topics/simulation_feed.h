@@ -5,8 +5,9 @@
 // Bounded      snapshots are limited by a capacity. If the queue is full, the producer waits, or
 //              the snapshot is dropped and counted. Producers of events never wait, because events
 //              are emitted under the simulation's locks; excess events are dropped.
-// Determinism  in lockstep nothing is dropped. The stepping thread reads the lists of sensors while
-//              the threads of all robots wait, so the lists do not depend on thread timing.
+// Determinism  with WhenFull::kWait, no snapshot is dropped. In lockstep, the stepping thread reads
+//              the lists of sensors while the threads of all robots wait, so the lists do not
+//              depend on thread timing.
 #pragma once
 
 #include <deque>
@@ -33,7 +34,7 @@ SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Lay
 // A snapshot, with the sensors and the status that the stepping thread sampled at the same time.
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  // Null if the sensors are unchanged or were not checked.
+  // Null if the sensors were not read at this snapshot.
   std::shared_ptr<const SensorLists> sensors;
   std::optional<simulation::SimulationStatus> status;  // set whenever the status is due
   // Set whenever the status is set; empty if the scenario has no expectations.

@@ -1,7 +1,7 @@
 // Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
 // /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
-// events, notes and state_hash. The first edit adds the topic /gsv/edits, even if this topic is not
-// selected, because resimulation needs the edits.
+// events, output, notes, expectations and state_hash. The first edit adds the topic /gsv/edits,
+// even if this topic is not selected, because resimulation needs the edits.
 #pragma once
 
 #include <map>
@@ -26,7 +26,7 @@ class StateTopics {
 
   // Writes the messages that are due at the time of the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
-  // Writes the poses and the clock of the snapshot, unless they are already written. They need not
+  // Writes the poses, transforms and clock of the snapshot, unless they are written. They need not
   // be due.
   void RecordNow(const world::Snapshot& snapshot);
 
