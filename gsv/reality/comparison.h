@@ -76,8 +76,9 @@ struct FittedDevice {
   std::string warning = {};  // see Comparison::warning
 };
 // Fits the parameters of a scanner and of radio ranges to the log's even blocks (world_fit.h). Fits
-// those of odometry to the whole log. For a ring of sonars, returns one device for each beam, in
-// beam order. Fails with kInvalidArgument in the same cases as Compare().
+// those of odometry, and the noise of a lidar at rest, to the whole log. For a ring of sonars,
+// returns one device for each beam, in beam order. Fails with kInvalidArgument in the same cases as
+// Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
 // Returns an SDFormat sensor for each device.

@@ -1,6 +1,6 @@
 // Finds the points at which two pieces touch by Bullet's algorithms. These algorithms are used
-// where placed_piece.h has no closed form: for cones, hulls, meshes, and cylinders that are not on
-// a plane. Private to this folder: it includes Bullet.
+// where placed_piece.h has no closed form: for cones and hulls, and for most pairs of a mesh or a
+// cylinder with another piece. Private to this folder: it includes Bullet.
 //
 // Determinism  no data is kept from one call to the next.
 #pragma once

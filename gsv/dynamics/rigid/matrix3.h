@@ -45,7 +45,7 @@ inline Matrix3 WithPrincipal(const Matrix3& rotation, const geometry::Vector3& v
 // Returns the rotation by the vector `turn` (rad).
 inline geometry::Quaternion RotationBy(const geometry::Vector3& turn) {
   const double angle = Norm(turn);
-  // Below this value, sin(x) / x equals 1 - x² / 6 in double precision.
+  // Below this value, sin(x) / x differs from 1 - x² / 6 by less than 1e-15.
   const double scale = angle < 1e-3 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
   return {std::cos(angle / 2), scale * turn.x, scale * turn.y, scale * turn.z};
 }

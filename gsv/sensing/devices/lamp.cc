@@ -10,8 +10,7 @@
 namespace gsv::sensing {
 namespace {
 
-// Returns the lamp that the parameters describe, switched off. Commands without a colour use its
-// colour.
+// Returns the lamp that the parameters describe, switched off. Its colour is the one at the start.
 world::Glow ReadLamp(ParameterReader& reader) {
   world::Glow lamp;
   const geometry::Vector3 colour = reader.Triple("colour", {1, 1, 1}, 0, 1);

@@ -4,7 +4,7 @@
 //             1].
 // Reading     the values of the command.
 // Parameters  (with their default values)
-//   colour ("1 1 1")        red, green and blue, for commands without a colour
+//   colour ("1 1 1")        red, green and blue at the start
 //   brightness (0)          brightness at the start
 //   radius (0.02 m)         radius of the glowing sphere
 //   range (0 m)             distance up to which the lamp lights objects; 0: it lights no objects

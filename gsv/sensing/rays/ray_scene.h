@@ -70,8 +70,8 @@ class RaySceneCache {
   RaySceneCache(const RaySceneCache&) = delete;
   RaySceneCache& operator=(const RaySceneCache&) = delete;
 
-  // Returns the scene of a snapshot. Any thread may call it; calls with the same snapshot return
-  // the same scene. Builds scenes in parallel on `team`, if it is given.
+  // Returns the scene of a snapshot. Any thread may call it; calls with one of the last four
+  // snapshots return the same scene. Builds scenes in parallel on `team`, if it is given.
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
                                      base::ThreadTeam* team = nullptr);
 
