@@ -1,7 +1,7 @@
 // Chooses a Unix domain socket for calls between this user's processes on one machine. A call by
-// this socket takes two thirds of the time of a call by TCP on loopback (docs/performance.md). An
-// object reference contains the addresses for both kinds of calls. Clients on other hosts, in other
-// containers or of other users connect by TCP.
+// this socket takes two thirds of the time of a call by TCP on loopback. An object reference
+// contains the addresses for both kinds of calls. Clients on other hosts, in other containers or of
+// other users connect by TCP.
 //
 // Threads  any.
 #pragma once

@@ -1,7 +1,7 @@
 // Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and offers
 // services that control the simulation.
 //
-// Threads  one publisher thread, one thread for slow sensors, and the threads of the services;
+// Threads  one publisher thread, threads for slow sensors, and the threads of the services;
 //          members from any thread. The stepping thread only hands over snapshots. In lockstep, it
 //          waits for the publisher, but never for a reader.
 #pragma once

@@ -1,5 +1,5 @@
-// Sensors and their readings. Arrays are views of the readings and keep them alive. No data is
-// copied between the SDK and NumPy.
+// Sensors and their readings. Arrays are views of the readings and keep them alive. Only the labels
+// of a segmentation camera are copied between the SDK and NumPy.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 

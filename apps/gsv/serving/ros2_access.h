@@ -91,7 +91,8 @@ class Ros2Access final : public Ros2Publisher {
   // Whether the command line has --ros2. Call Publish(simulation) and Follow() only if it has.
   bool is_on() const { return options_.has_value(); }
   std::string Description() const { return DescribeReach(reach_); }
-  // Returns why other machines can reach the topics, or an empty text if they cannot.
+  // Returns why other machines can reach the topics. Returns an empty text if they cannot, or need
+  // keys.
   std::string Exposure() const;
   // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);

@@ -12,7 +12,7 @@ namespace gsv::app {
 std::string ToText(const TestResult& result);
 
 // Returns JUnit's XML for Jenkins and GitLab. It has one <testcase> per scenario, <failure> for
-// violated expectations, and <error> for runs without a result.
+// failed tests, <error> for runs without a result, and <skipped> for interrupted runs.
 std::string ToJUnit(const std::vector<TestResult>& results, double wall_seconds);
 
 // Returns {passed, failed, errors, wall_s, results: [{scenario, file, status, message, folder,

@@ -11,7 +11,7 @@ namespace gsv::broker {
 
 // Adds GIOP version 1.2 to a "corbaloc:" without a version, because an ORB would use 1.0 for it.
 // Returns an "IOR:" unchanged.
-// Errors  kInvalidArgument, with a list of the valid forms of a reference.
+// Errors  kInvalidArgument, with the form of a reference.
 base::Result<std::string> NormaliseReference(std::string_view reference);
 
 // Whether the address belongs to a broker that accepts only TLS.

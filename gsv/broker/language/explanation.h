@@ -14,7 +14,7 @@ struct TermOutcome {
   enum class Result : std::uint8_t { kTrue, kFalse, kNoValue };
   std::string term;                    // the term as text, with all its parentheses
   Result result = Result::kNoValue;    // value of the term for the offer
-  std::vector<std::string> missing{};  // properties in the term that the offer lacks
+  std::vector<std::string> missing{};  // for kNoValue: properties that the offer lacks
 };
 
 // Returns the terms in the order of the constraint. The constraint matches if all terms are TRUE.

@@ -31,7 +31,7 @@ class LinkServant : public POA_CosTrading::Link, public ComponentsServant, publi
 CosTrading::Register_ptr RegisterOf(CORBA::ORB_ptr orb, const std::string& target);
 
 // Returns the reference to another trader's Lookup as a string.
-// Errors  throws InvalidLookupRef if `target` is nil or has another interface.
+// Errors  throws InvalidLookupRef if `target` is nil, has another interface, or does not tell.
 std::string CheckLookup(CORBA::ORB_ptr orb, CosTrading::Lookup_ptr target);
 
 }  // namespace gsv::broker

@@ -8,9 +8,10 @@
 
 namespace gsv::ros2 {
 
-// Returns the smallest box around a body's collision shapes, along the axes of the body's frame, at
-// the present joint positions. If the body has no collision shapes, its visuals are used. Returns
-// nullopt for a body without shapes, and for a body with an infinite plane.
+// Returns the smallest box around the bounding boxes of a body's collision shapes, along the axes
+// of the body's frame, at the present joint positions. If the body has no collision shapes, its
+// visuals are used. Returns nullopt for a body without shapes, and for a body with an infinite
+// plane.
 std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
 
 // Returns the smallest box along the world's axes that contains `bounds`, a box along a body's
