@@ -8,8 +8,9 @@
 // KEY       left, right: a joint that turns a wheel; steer: a joint that steers. Each of these keys
 //           may occur several times, or once with several joints joined by "+". radius, separation,
 //           wheel_base in metres, steering_limit in radians.
-// If the model's own drive has that kind, values that are not given are its values. Otherwise they
-// are guessed and measured (drive_guess.h).
+// If the model's own drive has that kind, values that are not given are its values; but if joints
+// are given, lengths and limits are measured. With another kind, values that are not given are
+// guessed and measured (drive_guess.h).
 #pragma once
 
 #include <memory>
@@ -36,8 +37,9 @@ struct DriveChoice {
 
 // Returns the model as a robot. `choice` is a text as above, or empty for the model's own drive or
 // a guessed drive. If no drive can be guessed either, the robot only has joints and sensors.
-// Returns the same model if nothing changes. Fails with kBadModel if the model lacks the chosen
-// joints, or if `choice` is empty and the model has no drive, wheels, movable joints or sensors.
+// Returns the same model if nothing changes. Fails with kInvalidArgument for an invalid choice, and
+// with kBadModel if the model lacks the chosen joints or the wheels of the chosen drive, or if
+// `choice` is empty and the model has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 

@@ -35,9 +35,9 @@ struct PedestrianGroup {
   friend bool operator==(const PedestrianGroup&, const PedestrianGroup&) = default;
 };
 
-inline constexpr int kMaxPedestrians = 100'000;  // maximum number of pedestrians in a group
+inline constexpr int kMaxPedestrians = 100'000;  // maximum number in a group and in a world
 
-// Rejects groups without goals, counts and sizes out of range, and numbers that are not finite
+// Rejects groups without a name or without goals, and numbers that are out of range or not finite
 // (kInvalidArgument).
 base::Status Check(const PedestrianGroup& group);
 

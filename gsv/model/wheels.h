@@ -31,7 +31,7 @@ std::optional<Wheel> MeasureWheel(const Model& model, int joint);
 
 // Returns all wheels that may carry the model, in the order of the joints. Such wheels are on
 // joints that turn freely about a level axis, and they touch level ground below the model. A link
-// without any shape counts if its name or its joint's contains "wheel".
+// without any shape counts if IsNamed() finds "wheel".
 std::vector<Wheel> FindWheels(const Model& model);
 
 // Whether the name of the wheel's joint, link or swivel contains one of these words, in upper or

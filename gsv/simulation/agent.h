@@ -2,7 +2,7 @@
 // commands and readings. The CORBA servants of the robot's hardware call it, and viewers steer
 // avatars with it.
 //
-// Threads  any; SleepUntil() and Exchange() block for at most the given lease.
+// Threads  any; SleepUntil(), Exchange() and SleepAndRead() wait for at most the given lease.
 // Errors   kNotRunning: in lockstep, a behaviour may command and read only while it runs, and this
 //          one waits for its clocks. kEnded: the simulation has stopped or was destroyed.
 #pragma once

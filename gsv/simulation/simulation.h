@@ -43,8 +43,8 @@ struct RobotSpecification {
 struct ObjectSpecification {
   std::string name;  // if empty: the model's name, with a number if this name is taken
   std::shared_ptr<const model::Model> model;  // if null, the model of `copy_of`
-  // The name of the body to copy: a body of the simulation or of the world file, or a body that a
-  // user removed.
+  // The name of the body to copy: a body of the simulation or of the world file, or an object that
+  // a user removed.
   std::string copy_of;
   geometry::Pose world_from_object;
   // Whether the object is moved vertically so that it stands on the floor, see sensing/ground.h.
@@ -102,8 +102,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status SetBehaviour(const std::string& robot,
                                     std::shared_ptr<BehaviourPort> behaviour) = 0;
 
-  // Commands a joint of a rigid body from the next step on. Fails if there is no such joint, or if
-  // the body does not move by rigid-body dynamics. For reproducible runs, call it while the
+  // Commands a joint of a rigid body or of a robot from the next step on. Fails if there is no such
+  // joint, or if world::CheckJointCommand() fails. For reproducible runs, call it while the
   // simulation is paused.
   virtual base::Status CommandJoint(const std::string& body, const std::string& joint,
                                     const world::JointCommand& command) = 0;
@@ -177,7 +177,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Returns the states of the expectations; empty if there are none.
   virtual std::vector<ExpectationState> expectations() const = 0;
 
-  // Whether a body was added, removed or moved after the first start.
+  // Whether a body was added, removed or moved after the first start, or the gravity was set.
   virtual bool was_edited() const = 0;
 
   // Adds an observer, which is notified from the next step on. The simulation keeps it alive until

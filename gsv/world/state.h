@@ -59,7 +59,7 @@ struct BodyState {
   bool in_contact = false;
 };
 
-// A command to a joint of a rigid body. It applies until the next command.
+// A command to a joint of a rigid body or of a robot. It applies until the next command.
 struct JointCommand {
   enum class Kind : std::uint8_t {
     kNone,      // no command; only damping and friction of the joint act
@@ -107,8 +107,9 @@ State InitialState(const Layout& layout);
 // Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Fails for commands that are not finite, and for efforts on bodies without rigid-body dynamics.
-// Also fails if the joint does not exist, accepts no commands, or belongs to the drive.
+// Fails for commands that are not finite, and if the joint does not exist or accepts no commands. For
+// a body without rigid-body dynamics, also fails for efforts, for joints of the drive, and if the
+// body is not a robot.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Sets the command of a joint.

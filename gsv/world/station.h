@@ -10,7 +10,7 @@ namespace gsv::world {
 // (ADR 042).
 inline bool IsStation(const Body& body) { return !body.is_robot() && !body.model->sensors.empty(); }
 
-// Whether the body has sensors that are read, recorded and shown: it is a robot, avatar or station.
+// Whether the body has an agent: it is a robot, avatar or station.
 inline bool HasAgent(const Body& body) { return body.is_robot() || IsStation(body); }
 
 }  // namespace gsv::world

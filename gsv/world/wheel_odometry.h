@@ -10,7 +10,8 @@
 // Others        all other drives: the integral of DriveState::actual. For a planar base, this is
 //               the actual motion, including stops at obstacles. For a rigid body, this is the
 //               commanded motion of the wheels, so slip and pushes are not measured either.
-// Threads       one at a time, except that Advance() may run concurrently for different bodies.
+// Threads       one at a time, except that Advance() and AdvanceBody() may run concurrently for
+//               different bodies.
 #pragma once
 
 #include <cstddef>
@@ -45,14 +46,14 @@ class WheelOdometry {
     double metres_per_rad = 0;  // metres that the side travels per radian of this wheel
   };
   // A base has two rows of wheels: the left row is wheels_[left_wheel..right_wheel), and the right
-  // row is wheels_[right_wheel..end_wheel). If the drive does not have two rows, both are empty.
+  // row is wheels_[right_wheel..end_wheel). If the drive is not differential, both are empty.
   struct Base {
     int body = 0;  // index in Layout::bodies
     std::uint32_t left_wheel = 0, right_wheel = 0, end_wheel = 0;
     double separation = 1;  // distance between the two rows, m
   };
 
-  // Advances the odometry of one base with two rows of wheels.
+  // Advances the odometry of one base.
   void AdvanceBase(double step_seconds, const Base& base, int steps, State& state) const;
   // Returns the distance that the side with the wheels from `begin` to `end` has travelled since
   // KeepWheels(), m.

@@ -5,8 +5,8 @@
 //             default lens of a "wideangle_camera" is stereographic.
 // Readings    values {width, height} in pixels; the image is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.
-// Errors      Sample(): kUnavailable with the reason if there is no renderer. All other sensors
-//             work without a renderer.
+// Errors      Sample(): kUnavailable with the reason if there is no renderer. Sensors
+//             that are not cameras work without a renderer.
 #pragma once
 
 #include <memory>

@@ -7,7 +7,7 @@
 // Readings    pixels are in rows from the top, as in ground_truth.h. Other names of a type are in
 //             brackets.
 //   depth_camera        values {width, height, then for each pixel the distance along the view in
-//   ("depth",           m, infinite where nothing is}. As a message: sensor_msgs/PointCloud2, one
+//   ("depth", "rgbd",   m, infinite where nothing is}. As a message: sensor_msgs/PointCloud2, one
 //   "rgbd_camera")      point per pixel, NaN where nothing is.
 //   segmentation_camera values {width, height, then for each pixel the number of the label from 1,
 //   ("segmentation")    0 where nothing is}. The labels are the names of all models in the world.

@@ -72,7 +72,7 @@ class Lens {
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
-  // Whether this is a pinhole without distortion whose axis goes through the image's centre. Images
+  // Whether this is a pinhole without distortion whose intrinsics follow from horizontal_fov. Images
   // of such a lens need no resampling.
   bool is_plain() const { return is_plain_; }
 

@@ -85,9 +85,9 @@ const Quaternion kCube[] = {
 
 constexpr int kMaxMixedSamples = 4;  // the maximum number of samples along a side of a pixel
 
-using Light = std::array<float, 3>;  // linear light of three channels, from 0 to 255
+using Light = std::array<float, 3>;  // encoded values of three channels, from 0 to 255
 
-// Interpolates the light at (u, v) between the four nearest pixel centres.
+// Interpolates the encoded values at (u, v) between the four nearest pixel centres.
 Light LightAt(const model::Image& from, float u, float v) {
   const float x = std::clamp(u - 0.5f, 0.0f, static_cast<float>(from.width - 1));
   const float y = std::clamp(v - 0.5f, 0.0f, static_cast<float>(from.height - 1));

@@ -39,7 +39,7 @@ class BatchRenderer {
 
   // Removes data of destroyed layouts, meshes and images.
   virtual void Sweep();
-  // Returns the number of cached meshes and textures.
+  // Returns the number of cached meshes, textures and layouts.
   DrawCopies Count() const;
 
  protected:

@@ -48,7 +48,7 @@ class MeshStore {
   // Returns the mesh of a shape, and makes it on first use.
   DrawShape Find(const geometry::Shape& shape);
 
-  // Removes meshes whose TriangleMesh was destroyed.
+  // Removes the meshes whose TriangleMesh, or whose last DrawShape, was destroyed.
   void Sweep();
   std::size_t size() const;
 

@@ -25,8 +25,8 @@ SurfaceFactors FactorsOf(const model::Material& material) {
           0};
 }
 
-// Returns the shape to draw. An infinite ground plane becomes a large horizontal rectangle without
-// a texture.
+// Returns the shape to draw. A plane with sides of at least kLandscape and without a texture is
+// enlarged to sides of at least kHorizon.
 geometry::Shape AsDrawn(const model::Visual& visual) {
   constexpr double kLandscape = 20, kHorizon = 2000;
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);

@@ -35,7 +35,7 @@ struct DrawGroup {
   // whether the scale mirrors the mesh, so that its front faces are reversed
   bool mirrored = false;
   bool double_sided = false;
-  bool ground = false;  // true for a ground plane, which is drawn behind coplanar surfaces
+  bool ground = false;  // true for a plane, which is drawn behind coplanar surfaces
 };
 
 // The factors of a material (as in glTF): the shader multiplies the values of its textures by them.

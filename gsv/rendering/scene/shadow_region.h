@@ -1,4 +1,4 @@
-// The region of a shadow map and its casters: a box along the direction of the sun that contains
+// The region of a shadow map and its casters: a box along the direction of the sun around
 // all casters. The edges of the box are rounded. So they are fixed while robots move, and shadows
 // do not flicker.
 #pragma once

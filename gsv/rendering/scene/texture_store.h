@@ -14,7 +14,7 @@ namespace gsv::rendering {
 // Base class of a back end's texture. Texels are encoded as in the image; shaders decode colours.
 struct DrawTexture {
   virtual ~DrawTexture() = default;
-  bool is_transparent = false;  // whether the alpha of some pixel is below 1
+  bool is_transparent = false;  // whether some pixel has an alpha below 250 of 255
 };
 
 // Keeps one texture for each image that materials use.

@@ -10,7 +10,7 @@
 
 namespace gsv::simulation {
 
-// Returns an error unless the name has 1 to 128 characters and no "/".
+// Returns an error if the name has more than 128 bytes or a "/". Callers treat an empty name.
 base::Status CheckBodyName(const std::string& name);
 
 // Returns a name that no body in `layout` has. This is the model's name if it is free. Otherwise, a

@@ -28,7 +28,8 @@ class FaultInjector {
         world_(world),
         editor_(editor) {}
 
-  // Fails if a fault names a body, sensor or joint that does not exist.
+  // Fails if a fault names a body or joint that does not exist, or if its robot or behaviour is
+  // missing. Sensors are not checked, because a behaviour may create them later.
   base::Status Check() const GSV_REQUIRES(simulation_mutex);
   FaultSchedule& schedule() GSV_REQUIRES(simulation_mutex) { return schedule_; }
   const FaultSchedule& schedule() const GSV_REQUIRES(simulation_mutex) { return schedule_; }
@@ -41,7 +42,7 @@ class FaultInjector {
   base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:
-  // Fails if the fault names a body, sensor or joint that does not exist.
+  // Checks one fault, see Check().
   base::Status CheckOne(const scenario::Fault& fault, const world::Layout& layout) const
       GSV_REQUIRES(simulation_mutex);
   // Apply() applies a fault of any kind. The other functions apply one kind each. If the fault

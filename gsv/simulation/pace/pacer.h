@@ -1,7 +1,7 @@
 // The schedule of steps on the wall clock, in real time.
 //
-// A step is late if it starts more than one step size after it was due. The schedule then shifts by
-// that delay, so that delayed steps do not follow in a burst.
+// A step is late if it starts more than one period (step size / real-time factor) after it was due.
+// The schedule then shifts by that delay, so that delayed steps do not follow in a burst.
 #pragma once
 
 #include <cstdint>

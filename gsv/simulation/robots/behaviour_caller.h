@@ -45,7 +45,7 @@ class BehaviourCaller {
   base::ConditionVariable changed_;  // notified when a task comes, when a call ends, and at the end
   std::deque<Task> tasks_ GSV_GUARDED_BY(mutex_);
   std::set<std::string> in_progress_ GSV_GUARDED_BY(mutex_);  // keys of the running calls
-  bool closing_ GSV_GUARDED_BY(mutex_) = false;               // set by the destructor
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;               // set by Close()
   std::vector<std::jthread> threads_;
 };
 

@@ -224,7 +224,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   // Returns the present readings of all sensors that are open.
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
-  // Returns the present reading of a sensor for the behaviour.
+  // Returns the present reading of a sensor for the behaviour or an observer.
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
   // Makes the clock wait. Returns false if `until` is already reached.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
@@ -266,7 +266,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether ReportDeath() was called. The death has taken effect if `fate_` is kDead.
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether the behaviour has reported its own death. Its later calls are ignored.
+  // Whether the behaviour has reported its own death. Its later calls fail.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
   alignas(64) AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);

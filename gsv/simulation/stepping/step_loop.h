@@ -88,7 +88,8 @@ class StepLoop {
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   // Marks an agent as unresponsive, and fails the run if the specification requires it.
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
-  // Returns true if every agent waits. Otherwise waits for a change and returns false.
+  // Returns true if every agent waits, and always in real time. Otherwise waits for a change and
+  // returns false.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   // Returns true if the next step is due. Otherwise waits until it is due or something changes, and
   // returns false.

@@ -118,7 +118,7 @@ export function parseScene(json: unknown): SceneDescription {
   };
 }
 
-// The bodies with sensors: robots, avatars and stations.
+// The robots, avatars and stations.
 export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
   return scene ? robotsOfScene(scene) : [];
 }

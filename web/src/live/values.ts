@@ -81,8 +81,8 @@ function collectObjects(list: unknown[], key: string, depth: number, values: Liv
   if (typeof list[0] === "object") collect(list[0], `${key}[0]`, depth + 1, values);
 }
 
-// Collects all values of a short list, or the minimum and maximum of the finite values of a long
-// list.
+// Collects all values of a short list, or the minimum, maximum and mean of the finite values of a
+// long list.
 function collectList(list: NumberList, key: string, values: LiveValue[]): void {
   if (list.length === 0) return;
   if (list.length <= LONGEST_LISTED) {

@@ -129,7 +129,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   }
 
   // Subscribes to a topic. Returns the function that ends the subscription. With `newestOnly` or a
-  // form, this client skips messages, so that decoding takes at most a fifth of the page's time.
+  // form, this client skips messages, so that decoding takes at most a fifth of the page's time (more
+  // if a single message takes longer than LONGEST_REST_MS / REST_SHARE).
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,

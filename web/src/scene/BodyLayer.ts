@@ -114,8 +114,8 @@ export class BodyLayer {
     return this.staticHitsOf(raycaster)[0]?.point ?? null;
   }
 
-  // Returns the free distance from a place in a direction (unit length) to the next fixed body;
-  // Infinity if there is no fixed body within `far`.
+  // Returns the free distance from a place in a direction (unit length) to the next static body
+  // that is not transparent; Infinity if there is none within `far`.
   freeAlong(from: Vector3, direction: Vector3, far: number): number {
     const blocks = ({ object }: Intersection) => !((object as Mesh).material as Material).transparent;
     return this.staticHitsOf(new Raycaster(from, direction, 0, far)).find(blocks)?.distance ?? Infinity;

@@ -21,8 +21,8 @@ export interface PickedView {
 export class BodyPicker {
   constructor(private readonly view: PickedView) {}
 
-  // Returns the robot or avatar at a place. If there is none, returns the nearest robot that is
-  // drawn close to the place.
+  // Returns the robot, avatar or station at a place. If there is none, returns the nearest one that
+  // is drawn close to the place.
   robotAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);
     if (hit && hasAgent(hit)) return hit.name;
