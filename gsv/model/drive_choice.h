@@ -37,9 +37,9 @@ struct DriveChoice {
 
 // Returns the model as a robot. `choice` is a text as above, or empty for the model's own drive or
 // a guessed drive. If no drive can be guessed either, the robot only has joints and sensors.
-// Returns the same model if nothing changes. Fails with kInvalidArgument for an invalid choice, and
-// with kBadModel if the model lacks the chosen joints or the wheels of the chosen drive, or if
-// `choice` is empty and the model has no drive, wheels, movable joints or sensors.
+// Returns the same model if nothing changes. Fails with kInvalidArgument for an invalid choice. Fails
+// with kBadModel if the model lacks the chosen joints or the wheels of the chosen drive. If `choice`
+// is empty, fails with kBadModel if the model has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 

@@ -33,10 +33,10 @@ enum class Mode {
   kLockstep,
 };
 
-// The transitions are created → starting → running → paused → starting. A run is "finished" when its
-// duration is over, and "stopped" by request. It is "failed" when a behaviour failed with
-// FailurePolicy::kFail, when an in-process behaviour exceeded the deadline, or when a fault could not
-// be applied.
+// The transitions are created → starting → running → paused → starting. A run is "finished" when
+// its duration is over, and "stopped" by request. It is "failed" when a behaviour failed with
+// FailurePolicy::kFail, when an in-process behaviour exceeded the deadline, or when a fault could
+// not be applied.
 enum class Phase { kCreated, kStarting, kRunning, kPaused, kStopped, kFinished, kFailed };
 
 const char* ToString(Mode mode);

@@ -107,9 +107,9 @@ State InitialState(const Layout& layout);
 // Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Fails for commands that are not finite, and if the joint does not exist or accepts no commands. For
-// a body without rigid-body dynamics, also fails for efforts, for joints of the drive, and if the
-// body is not a robot.
+// Fails for commands that are not finite, and if the joint does not exist or accepts no commands.
+// For a body without rigid-body dynamics, also fails for efforts, for joints of the drive, and if
+// the body is not a robot.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Sets the command of a joint.

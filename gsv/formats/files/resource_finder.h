@@ -1,8 +1,8 @@
 // A ResourceFinder finds the files to which worlds and robots refer.
 //
 // A name is `model://NAME/REST`, `package://NAME/REST`, `file://PATH`, a bare path, or an address
-// on the web. A relative path is searched beside the file that names it. `model://NAME/REST` is
-// searched in this order:
+// on the web. A relative path is searched beside the file that names it, and then in the folders of
+// steps 1 to 4. `model://NAME/REST` is searched in this order:
 //   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
 //      of each of these folders;
 //   2. on the search path of the caller;

@@ -1,5 +1,5 @@
 // A TextureReader reads images (PNG, JPEG, TGA, BMP, TIFF). It reads each file once and shares the
-// result. An image with sides beyond the limit is scaled down.
+// result. An image with sides beyond the limit is scaled down; a TIFF image beyond it is refused.
 //
 // Errors   an error for a file that is missing, larger than the limits, or not an image. The number
 //          of pixels that a file declares is checked before memory is allocated. An image that must

@@ -15,9 +15,9 @@ struct WebTexture {
   std::vector<std::uint8_t> bytes;
 };
 
-// Returns the image's original file if `original_allowed`, if it is a PNG or JPEG of the same size,
-// and if no side exceeds `max_side`. Otherwise encodes a JPEG, or a PNG if the image has
-// transparent pixels, scaled down to `max_side`.
+// Returns the image's original file if `original_allowed`, if it is a PNG or JPEG of the same size
+// with at most 16 MiB, and if no side exceeds `max_side`. Otherwise encodes a JPEG, or a PNG if the
+// image has an alpha channel, scaled down to `max_side`.
 WebTexture EncodeForWeb(const model::Image& image, bool original_allowed, int max_side = 1024);
 
 }  // namespace gsv::formats

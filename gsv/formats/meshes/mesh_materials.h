@@ -11,8 +11,8 @@ struct aiScene;
 
 namespace gsv::formats {
 
-// Returns a material for each material of the scene. Textures are searched beside the mesh, in
-// ../materials/textures and in ../textures, which are the usual folders of models.
+// Returns a material for each material of the scene. Textures are searched beside the mesh, and
+// in ../materials/textures, ../textures and ../../materials/textures, the usual folders of models.
 std::vector<model::Material> ReadMeshMaterials(const aiScene& scene,
                                                const std::filesystem::path& mesh,
                                                TextureReader& textures, const ReadLimits& limits,

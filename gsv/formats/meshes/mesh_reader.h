@@ -1,5 +1,5 @@
 // A MeshReader reads meshes (COLLADA, OBJ, STL, glTF) with their materials. It reads each file
-// once.
+// once for each submesh.
 //
 // Units    metres: COLLADA's <unit> is applied.
 // Axes     the file's own axes. Like Gazebo and RViz, this ignores COLLADA's <up_axis>, because

@@ -83,7 +83,7 @@ class ModelStore {
   base::Problems problems_of_refused_;  // see TakeProblemsOfRefused()
   // The files that were read, by path and `plugins`.
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
-  // The files of files_ by the names in <uri> elements, so that each name is searched once.
+  // The files of files_ by their paths as given to Read(), so that each path is resolved once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 

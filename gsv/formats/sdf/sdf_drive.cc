@@ -198,8 +198,7 @@ class DriveReader {
 
   const Joint& JointAt(int index) const { return model_.joints[static_cast<std::size_t>(index)]; }
 
-  // Returns the centre of the wheel's collision shapes, or of its joint if the wheel has no such
-  // shapes.
+  // Returns the origin of the wheel's first collision shape, or of its joint if the wheel has none.
   Vector3 WheelCentre(int joint) const {
     const model::Link& wheel = model_.links[static_cast<std::size_t>(JointAt(joint).child)];
     if (wheel.collisions.empty()) return JointAt(joint).model_from_joint.position;

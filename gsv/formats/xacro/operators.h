@@ -25,13 +25,13 @@ base::Result<Value> Member(const Value& of, const std::string& name);
 
 // Returns one of pi, e, tau, inf, nan.
 std::optional<Value> Constant(const std::string& name);
-// IsFunction() and CallFunction() find and call a function by its name. Supported are Python's math
-// functions, the functions of sequences.h, and abs, min, max, round, sum, len, int, float, str,
-// bool, list, tuple.
+// IsFunction() and CallFunction() find and call a function by its name. Supported are the usual
+// functions of Python's math, the functions of sequences.h, and abs, min, max, round, sum, len,
+// int, float, str, bool, list, tuple.
 bool IsFunction(const std::string& name);
 // Calls a function by its name.
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
-// Calls a method of a text, list or dictionary: lower, upper, capitalize, strip, startswith,
+// Calls a method of a text or dictionary: lower, upper, capitalize, strip, startswith,
 // endswith, replace, split, join, find, isdigit, zfill, format, get, keys, values, items.
 base::Result<Value> CallMethod(const Value& of, const std::string& name,
                                const std::vector<Value>& arguments);

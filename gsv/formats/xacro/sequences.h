@@ -10,7 +10,8 @@
 namespace gsv::formats::xacro {
 
 bool IsSequenceFunction(const std::string& name);
-// Fails with kBadModel for invalid arguments, and for lists of more than 10,000 values.
+// Fails with kBadModel for invalid arguments, for a range() of more than 10,000 values, and for
+// sorted() of more than 1,000 values. zip() ends after 10,000 values.
 base::Result<Value> CallSequenceFunction(const std::string& name,
                                          const std::vector<Value>& arguments);
 

@@ -72,8 +72,8 @@ class Lens {
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
-  // Whether this is a pinhole without distortion whose intrinsics follow from horizontal_fov. Images
-  // of such a lens need no resampling.
+  // Whether this is a pinhole without distortion whose intrinsics follow from horizontal_fov.
+  // Images of such a lens need no resampling.
   bool is_plain() const { return is_plain_; }
 
   // Returns the direction of an image point, as a unit vector in the camera's frame; nullopt if the

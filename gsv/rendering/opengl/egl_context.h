@@ -23,9 +23,9 @@ struct EglOptions {
   std::string gl_library = "libOpenGL.so.0";
 };
 
-// Whether EGL can list graphics devices, according to its client extensions: EGL_EXT_device_base (or
-// EGL_EXT_device_enumeration and EGL_EXT_device_query), and EGL_EXT_platform_device. Null stands for
-// no extensions.
+// Whether EGL can list graphics devices, according to its client extensions: EGL_EXT_device_base
+// (or EGL_EXT_device_enumeration and EGL_EXT_device_query), and EGL_EXT_platform_device. Null
+// stands for no extensions.
 bool ListsDevices(const char* client_extensions);
 
 // An OpenGL context without a window.

@@ -24,8 +24,8 @@ bool IsStuck(const Motion& motion, SimTime stuck_after);
 // Records since when each robot has been moving, at rest or stuck.
 class MotionHistory {
  public:
-  // Samples the first snapshot at or after each multiple of 0.1 s, and the first one of each layout.
-  // A snapshot of an earlier time than the last sample begins a new history.
+  // Samples the first snapshot at or after each multiple of 0.1 s, and the first one of each
+  // layout. A snapshot of an earlier time than the last sample begins a new history.
   void Follow(const world::Snapshot& snapshot);
   // Returns the first instant after `now` that is sampled.
   static SimTime NextSampling(SimTime now);

@@ -81,7 +81,8 @@ class MountedSensor {
 
   // Returns the sample at the instant of `sampling`. Takes the sample if it does not exist yet.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
-  // Like Read(), but for a caller that is not a turn of the robot's behaviour, such as a live topic.
+  // Like Read(), but for a caller that is not a turn of the robot's behaviour, such as a live
+  // topic.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
   // From now on, each sweep that `sweeps` counts is also a reading of this sensor.

@@ -1,7 +1,7 @@
 // Draws the bodies of one model. Several bodies are drawn as instances: all parts that move with
 // one frame (the body, or one of its links) share one buffer of matrices, and parts of one material
-// are one draw call. A single body is drawn part by part. So three.js omits the parts outside of
-// the view, and sorts transparent parts.
+// are one draw call. A single body is drawn part by part. So three.js sorts transparent parts, and
+// omits the parts of a fixed body that are outside of the view.
 import type { BufferGeometry } from "three";
 import { DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh } from "three";
 import { OCCLUDING_LAYER } from "./AmbientOcclusion";

@@ -84,7 +84,7 @@ export interface State {
   abilities: Abilities; // the capabilities of the server
   missing: string; // why the content of the page's address cannot be shown; empty if it can be shown
   refusal: string; // why the server rejects this page's token; empty if it accepts the token
-  people: People; // the other viewers, and who has control
+  people: People; // all viewers, and who has control
   editing: Editing | null; // null while this page does not edit the simulation
   // recording of the simulation; null if it cannot be recorded, or if this is unknown
   recording: Recording | null;

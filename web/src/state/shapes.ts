@@ -5,9 +5,9 @@ export type ShapeKind = "box" | "wall" | "cylinder" | "sphere";
 // Lengths in metres. Each kind of shape uses only some of them.
 export interface Shape {
   kind: ShapeKind;
-  length: number; // along x; for a cylinder, the height
+  length: number; // along x
   width: number; // along y
-  height: number; // along z
+  height: number; // along z; also for a cylinder
   radius: number;
   mass: number; // kg
   isStatic: boolean;
