@@ -36,8 +36,8 @@ class JobQueue {
       const std::vector<Batch>& batches) = 0;
 };
 
-// The shell command that executes one task. The texts are inserted unquoted, so that a queue may
-// pass shell variables.
+// The shell command that executes one task. All texts except the two paths are inserted unquoted,
+// so that a queue may pass shell variables.
 struct TaskCommand {
   std::string program;     // the path of gsv on the machine
   std::string batch_file;  // path of the batch's file in the spool

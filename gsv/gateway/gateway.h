@@ -43,8 +43,8 @@ struct GatewayOptions : ServerOptions {
   std::string only_recording{};     // a single file of the folder that is served; empty: all files
   uploads::UploadLimits uploads{};  // limits of uploaded files
   recordings::SessionLimits replays{};  // limits of open replays
-  // Maximum size in bytes of the history of each simulation (recording/run_history.h); 0: no
-  // history.
+  // Maximum size in bytes of the history of each simulation (recording/run_history.h). If it is 0,
+  // or recordings_folder is empty, there is no history.
   std::size_t history_bytes = 0;
   std::vector<Route> routes{};  // additional routes, for simulations of this program
 };

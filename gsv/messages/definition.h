@@ -27,8 +27,8 @@ class Definition {
   // type and of the types that it uses, as in Schema::text.
   static base::Result<Definition> Parse(std::string_view name, std::string_view text);
 
-  // Decodes a message as JSON, with its fields in order. Octets (images, point clouds) become
-  // {"bytes": COUNT}, because nobody reads them as text.
+  // Decodes a message as JSON, with its fields in order. Arrays of octets (images, point clouds)
+  // become {"bytes": COUNT}, because nobody reads them as text.
   base::Result<nlohmann::ordered_json> Decode(std::span<const std::byte> cdr) const;
 
  private:

@@ -55,7 +55,7 @@ class DrawnScene {
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;                // the state with the scene's own poses
   std::vector<int> bodies_of_poses_;  // for each pose of a message: the index of its body, or -1
-  std::map<std::pair<std::string, std::string>, Camera> sensors_;  // cameras by robot and name
+  std::map<std::pair<std::string, std::string>, Camera> sensors_;  // by robot and name
 };
 
 }  // namespace gsv::view

@@ -18,8 +18,8 @@ namespace gsv::gateway::history {
 // The part of the HTTP API about the past of running simulations.
 class HistoryApi {
  public:
-  // If no history is kept, `histories` and `sessions` are both null. Then only the events and notes
-  // are served. All arguments must outlive this object.
+  // If no history is kept, `histories` is null and `sessions` may be null. Then only the events and
+  // notes are served. All arguments must outlive this object.
   HistoryApi(std::shared_ptr<SimulationDirectory> directory, Histories* histories,
              recordings::ReplaySessions* sessions, ModelStore& models)
       : directory_(std::move(directory)),

@@ -40,7 +40,7 @@ class RecordedScene {
   // Whether a body of this name is a robot or an avatar in one of the scenes.
   bool IsRobot(const std::string& name) const { return robots_.contains(name); }
 
-  // Whether one of the scenes has a body of this name.
+  // Whether one of the scenes has a body of this name that is not static.
   bool HasBody(const std::string& name) const;
 
   // Returns the GLB file of a model, or kNotFound.

@@ -1,4 +1,4 @@
-// Scans a recording without its summary. Reads it record by record, up to the first invalid record.
+// Scans a recording without its summary. Reads it record by record, up to the first incomplete one.
 #include <algorithm>
 #include <set>
 

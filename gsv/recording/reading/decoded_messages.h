@@ -30,7 +30,7 @@ nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 class DecodedMessages {
  public:
   // Opens the selected messages, ordered by time. The reader must outlive this object. Fails if a
-  // selected topic is not in the recording, or if no messages can be decoded.
+  // selected topic is not in the recording, or if its messages cannot be decoded.
   static base::Result<DecodedMessages> Open(const McapReader& reader, const Selection& selection);
 
   // Returns the next message, or nullopt at the end. For a message or chunk that cannot be read or
@@ -56,7 +56,8 @@ class DecodedMessages {
 struct Difference {
   base::SimTime time{};
   std::string topic;
-  // Such as "pose.position.x"; empty if the message is missing in one of the recordings.
+  // Such as "pose.position.x"; empty if the message is missing in one of the recordings; "bytes" if
+  // only bytes differ that are not decoded, such as those of an image.
   std::string field;
   // The values of the field as JSON. If only one recording has the message: "there" for this
   // recording, and "missing" for the other one.
