@@ -1,6 +1,7 @@
 #include "gsv/scenario/scenario_keys.h"
 
 #include "gsv/model/drive_choice.h"
+#include "gsv/model/real_time_factor.h"
 #include "gsv/scenario/test_keys.h"
 
 namespace gsv::scenario {
@@ -8,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxRobots = 100'000;
 constexpr std::size_t kMaxGroups = 1000, kMaxGoals = 1000;
-constexpr double kMinRealTimeFactor = 1e-6, kMaxRealTimeFactor = 1e6;
+constexpr double kMinRealTimeFactor = 1e-6;
 constexpr double kMinStep = 1e-6;                      // s
 constexpr double kMinRate = 0.001, kMaxRate = 10'000;  // Hz
 
@@ -146,8 +147,9 @@ std::optional<Ros2Settings> ReadRos2(YamlMapping& mapping) {
 
 // Reads the target real-time factor. The key `factor` is its deprecated name.
 std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
-  const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
-  const auto former = mapping.Number("factor", kMinRealTimeFactor, kMaxRealTimeFactor);
+  const auto factor =
+      mapping.Number("real_time_factor", kMinRealTimeFactor, model::kMaxRealTimeFactor);
+  const auto former = mapping.Number("factor", kMinRealTimeFactor, model::kMaxRealTimeFactor);
   if (mapping.Has("factor") && mapping.Has("real_time_factor")) {
     mapping.AddProblem("factor", "is the former name of real_time_factor; give one of the two");
   }

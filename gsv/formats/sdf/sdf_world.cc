@@ -11,6 +11,7 @@
 #include <sdf/Scene.hh>
 
 #include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/model/real_time_factor.h"
 
 namespace gsv::formats {
 namespace {
@@ -41,7 +42,7 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
   const double factor = physics.RealTimeFactor();
-  if (factor > 0 && factor <= 1e6) {
+  if (factor > 0 && factor <= model::kMaxRealTimeFactor) {
     world.real_time_factor = factor;
   } else {
     // In Gazebo, a factor that is not positive means "as fast as possible".

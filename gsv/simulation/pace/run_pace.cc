@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "gsv/model/real_time_factor.h"
+
 namespace gsv::simulation {
 
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation) {
-  if (factor > 0 && factor <= 1e6) return {};
+  if (factor > 0 && factor <= model::kMaxRealTimeFactor) return {};
   return base::Fail(
       base::ErrorCode::kInvalidArgument,
       fmt::format("the real-time factor is {}; it must be above 0 and at most 1e6", factor),
