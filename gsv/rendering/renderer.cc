@@ -155,9 +155,9 @@ class Renderer::RenderThread {
         renderer = std::make_unique<GlBatchRenderer>();
       }
     } else if (!raster::CanRasterise()) {
-      started.set_value(Fail(
-          ErrorCode::kUnavailable,
-          "this processor lacks AVX2, which the rasteriser requires; images need OpenGL here"));
+      started.set_value(Fail(ErrorCode::kUnavailable,
+                             "this processor lacks AVX2 or FMA, which the rasteriser requires; "
+                             "images need OpenGL here"));
       return;
     }
     if (renderer == nullptr) {

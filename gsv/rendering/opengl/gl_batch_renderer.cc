@@ -98,7 +98,8 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> GlBatchRenderer::D
     const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
   if (!raster::CanRasterise()) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "depth and segmentation cameras need AVX2, which this processor lacks");
+                      "depth, thermal, segmentation, bounding-box and normals cameras need AVX2 "
+                      "and FMA, and this processor lacks one of them");
   }
   if (ground_truth_renderer_ == nullptr) {
     ground_truth_renderer_ =
