@@ -71,9 +71,6 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
                   " needs 'id' (an integer above 0), 'time_s' (a number), and 'text' (at most " +
                   std::to_string(kMaxTextLength) + " bytes)");
     }
-    if (notes.size() == kMaxNotes) {
-      return fail("it has more than " + std::to_string(kMaxNotes) + " notes");
-    }
     notes.push_back(*note);
   }
   std::stable_sort(notes.begin(), notes.end(),
@@ -116,10 +113,18 @@ base::Status NoteFile::Write(const std::vector<Note>& notes) const {
         {{"id", note.id}, {"time_s", note.time_s}, {"text", note.text}, {"created", note.created}});
   }
   const nlohmann::ordered_json json{{"version", kVersion}, {"notes", std::move(list)}};
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (text.size() > kMaxFileSize) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the file with the notes of a recording can have at most 4 MiB; shorten or "
+                      "remove some notes",
+                      path_);
+  }
   const std::string temporary = path_ + ".new";
   {
     std::ofstream file(temporary, std::ios::trunc);
-    file << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+    file << text;
     file.close();
     if (!file) {
       return base::Fail(base::ErrorCode::kUnavailable, "cannot write the notes: " + ErrorOfSystem(),

@@ -33,14 +33,15 @@ class NoteFile {
 
   // Returns the notes ordered by time; empty if there is no file.
   base::Result<std::vector<Note>> Read() const;
-  // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already.
+  // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already, or the
+  // file would have more than 4 MiB.
   base::Result<std::int64_t> Add(double time_s, const std::string& text,
                                  const std::string& created) const;
   // Removes a note. kNotFound: there is no note with this identifier.
   base::Status Remove(std::int64_t id) const;
 
  private:
-  // Replaces the content of the file.
+  // Replaces the content of the file. kInvalidArgument: it would have more than 4 MiB.
   base::Status Write(const std::vector<Note>& notes) const;
 
   const std::string path_;

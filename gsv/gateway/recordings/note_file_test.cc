@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "gsv/base/temporary_folder.h"
 
@@ -63,6 +64,20 @@ TEST_F(NoteFileTest, HoldsAtMostAThousandNotes) {
   WriteText(text + "]}");
   EXPECT_EQ(file_.Read().value().size(), 1000u);
   EXPECT_EQ(file_.Add(1, "one more", "").error().code, base::ErrorCode::kInvalidArgument);
+}
+
+TEST_F(NoteFileTest, RefusesANoteThatMakesTheFileTooLongToRead) {
+  // JSON writes each of these characters as 6 bytes. So 170 texts take 4,177,920 bytes, and 171 texts
+  // take 4,202,496 bytes, which is more than 4 MiB (4,194,304 bytes).
+  const std::string text(4096, '\x01');
+  nlohmann::json notes = nlohmann::json::array();
+  for (int i = 1; i <= 170; ++i) notes.push_back({{"id", i}, {"time_s", 1}, {"text", text}});
+  WriteText(nlohmann::json{{"version", 1}, {"notes", notes}}.dump());
+  EXPECT_EQ(file_.Add(1, text, "").error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_EQ(file_.Read().value().size(), 170u);
+  EXPECT_TRUE(file_.Remove(1));
+  EXPECT_TRUE(file_.Add(1, "short", ""));
+  EXPECT_EQ(file_.Read().value().size(), 170u);
 }
 
 TEST_F(NoteFileTest, RefusesASymbolicLink) {
