@@ -31,7 +31,7 @@ export class Quality {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }
 
-  // Takes the time between two consecutive frames. Returns true if this changes the quality of the
+  // Takes the time that a frame has taken. Returns true if this changes the quality of the
   // next frame.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;

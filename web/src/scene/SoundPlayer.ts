@@ -23,7 +23,7 @@ export class SoundPlayer {
     return this.voices.size;
   }
 
-  // Sets the sounds to play, by topic. If the player is muted, plays no sounds.
+  // Sets the sounds to play, by topic. Plays at most MOST_SOUNDS of them.
   play(sounds: ReadonlyMap<string, Sound>): void {
     if (sounds.size === 0 && this.voices.size === 0) return;
     for (const [topic, { sound }] of [...this.voices]) {

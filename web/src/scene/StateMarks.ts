@@ -1,6 +1,7 @@
-// Draws a mark at each robot that is far away, in trouble, or selected by the filter. The mark
-// shows the state by colour, and also by shape for people who do not see colours. All marks are one
-// draw call. They are drawn over everything else.
+// Draws a mark at each robot that is far away or in trouble. If there is a filter, draws a mark at
+// each robot that the filter selects, and at no other robot. The mark shows the state by colour, and
+// also by shape for people who do not see colours. All marks are one draw call. They are drawn over
+// everything else.
 import type { PerspectiveCamera } from "three";
 import {
   BufferAttribute,

@@ -71,7 +71,7 @@ export class Surface {
     this.renderer.shadowMap.needsUpdate = true;
   }
 
-  // Takes the time between two consecutive frames. Returns true if this changes the quality of the
+  // Takes the time that a frame has taken. Returns true if this changes the quality of the
   // next frame.
   frameTook(milliseconds: number): boolean {
     if (this.drawn) return false;

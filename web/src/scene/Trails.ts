@@ -7,7 +7,7 @@ import type { TrailColour } from "../state/overlays";
 const MOST_PLACES = 400; // number of places of one robot
 const MOST_ROBOTS = 200;
 const APART_M = 0.05;
-// m: if a robot moves farther between two updates, its trail is interrupted, because the robot was
+// m: if a robot moves farther between two updates, its trail begins again, because the robot was
 // moved by an edit or the replay has jumped
 const JUMP_M = 2;
 const COLOURS = [0x2f81e0, 0xe0701a, 0x2a9d4a, 0xc2399b, 0xd0453e, 0x12938f].map(rgb);
