@@ -35,8 +35,8 @@ struct Contact {
   // Impulse along the normal over the step, N s, summed over all contact points; NaN if the engine
   // does not compute it. Planar kinematics computes the impulse only when a robot pushes a body.
   double impulse = std::numeric_limits<double>::quiet_NaN();
-  // Whether the second body, static or planar, supports the first body from below, like the ground.
-  // Such a contact is not a collision: only contact sensors report it.
+  // Whether the second body (static, planar or an actor) supports the first body from below, like
+  // the ground. Such a contact is not a collision: only contact sensors report it.
   bool supports = false;
   // All contact points of two rigid bodies, the deepest first, at the end of the last substep in
   // which the bodies touched. The impulses of the points add up to the impulse of the whole step.
