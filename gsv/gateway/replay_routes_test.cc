@@ -35,6 +35,15 @@ TEST_F(ReplayGatewayTest, ServesOnlyTheRecordedSimulation) {
   EXPECT_EQ(Get("/ws").status, 426);
 }
 
+TEST_F(ReplayGatewayTest, RefusesRequestsThatEditASimulation) {
+  for (const char* const below : {"set_gravity", "robots", "objects", "robots/robot/drive",
+                                  "bodies/robot/place", "bodies/robot/joints/lift"}) {
+    const HttpReply reply = Post(below, "{}");
+    EXPECT_EQ(reply.status, 409) << below;
+    EXPECT_EQ(json::parse(reply.body)["error"], "a replay cannot be edited") << below;
+  }
+}
+
 TEST_F(ReplayGatewayTest, ServesTheSceneAndItsModels) {
   const json scene = json::parse(Get("/api/simulations/simulation/scene").body);
   ASSERT_EQ(scene["bodies"].size(), 2u);

@@ -212,6 +212,9 @@ struct RefusedRequest {
 constexpr RefusedRequest kRefused[]{
     {"POST", "/real_time_factor", &RefuseFactor},
     {"POST", "/factor", &RefuseFactor},
+    {"POST", "/set_gravity", &RefuseEdit},
+    {"POST", "/robots", &RefuseEdit},
+    {"POST", "/objects", &RefuseEdit},
     {"DELETE", "/robots/{robot}", &RefuseEdit},
     {"POST", "/robots/{robot}/drive", &RefuseEdit},
     {"DELETE", "/objects/{object}", &RefuseEdit},
