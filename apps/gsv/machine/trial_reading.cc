@@ -10,8 +10,28 @@ namespace gsv::app {
 namespace {
 
 std::string ExitedWith(int code) { return "exit code " + std::to_string(code); }
+std::string EndedBy(int signal) { return "signal " + std::to_string(signal); }
 
 }  // namespace
+
+std::string WhyTrialFailed(const std::string& ending, const TrialLimits& limits) {
+  const std::string too_much_time = "reading it takes more than " +
+                                    std::to_string(limits.sandbox.processor_time.count()) +
+                                    " s of processor time";
+  if (ending.empty()) {
+    return "reading it takes longer than " + std::to_string(limits.wall_time.count()) + " s";
+  }
+  if (ending == ExitedWith(kWantsMoreMemory)) {
+    return "reading it takes more than " + std::to_string(limits.sandbox.memory_bytes) +
+           " bytes of memory";
+  }
+  if (ending == EndedBy(SIGXCPU)) return too_much_time;
+  // The kernel sends SIGKILL at the limit of processor time, but also if the machine has no memory
+  // left.
+  if (ending == EndedBy(SIGKILL)) return too_much_time + ", or this machine has too little memory";
+  return (ending.starts_with("signal") ? "reading it crashes (" : "reading it fails (") + ending +
+         ")";
+}
 
 base::Status TryToRead(const std::string& world,
                        const std::vector<std::filesystem::path>& model_path,
@@ -41,20 +61,9 @@ base::Status TryToRead(const std::string& world,
   const std::string ending = left().count() > 0 ? (*child)->AwaitEnd(left()) : (*child)->Ending();
   if (ending == ExitedWith(kOk) || ending == ExitedWith(kBadModel)) return {};
   if (ending.empty()) (*child)->Signal(SIGKILL);
-  const std::string why =
-      ending == ExitedWith(kWantsMoreMemory)
-          ? "reading it takes more than " + std::to_string(limits.sandbox.memory_bytes) +
-                " bytes of memory"
-      : ending.empty()
-          ? "reading it takes longer than " + std::to_string(limits.wall_time.count()) + " s"
-      : ending == "signal " + std::to_string(SIGKILL) ||
-              ending == "signal " + std::to_string(SIGXCPU)
-          ? "reading it takes more than " + std::to_string(limits.sandbox.processor_time.count()) +
-                " s of processor time"
-      : ending.starts_with("signal") ? "reading it crashes (" + ending + ")"
-                                     : "reading it fails (" + ending + ")";
   return base::Fail(base::ErrorCode::kBadModel,
-                    why + " (a separate process tried to read it first)", world);
+                    WhyTrialFailed(ending, limits) + " (a separate process tried to read it first)",
+                    world);
 }
 
 }  // namespace gsv::app

@@ -20,6 +20,10 @@ struct TrialLimits {
   std::chrono::seconds wall_time{120};  // maximum wall-clock time
 };
 
+// Returns the reason why a trial failed. `ending` is the ChildProcess::Ending() of the child, or
+// empty if the child still ran at the limit of wall-clock time.
+std::string WhyTrialFailed(const std::string& ending, const TrialLimits& limits);
+
 // Returns kBadModel if the trial did not end regularly. `model_path` has folders to search for
 // models.
 // Threads  any; takes as long as reading the world.
