@@ -101,6 +101,33 @@ TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "4/3"}).ending, "exit code 2");
 }
 
+TEST_F(CampaignCommand, OptionsWithoutEffectAreRefused) {
+  const Strings queues[] = {{"--engine", "slurm"}, {"--engine", "ssh", "--host", "localhost"}};
+  for (Strings arguments : queues) {
+    const std::string engine = arguments[1];
+    arguments.insert(arguments.end(), {"-j", "2"});
+    const Outcome run = Campaign("run", arguments);
+    EXPECT_EQ(run.ending, "exit code 2") << run.err;
+    EXPECT_THAT(run.err, HasSubstr("--jobs 2: the engine " + engine +
+                                   " determines how many runs are executed in parallel; remove "
+                                   "the option"));
+  }
+  const std::string slurm = folder_.Write("slurm.yaml", "scenario: s.yaml\nengine: slurm\n");
+  EXPECT_EQ(RunProgram("gsv", {"campaign", "run", slurm, "--jobs", "1"}).ending, "exit code 2");
+  const std::pair<const char*, Strings> with_shard[] = {
+      {"--broker", {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService"}},
+      {"--broker", {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService", "--servers", "TRUE"}},
+      {"--engine", {"--engine", "local"}},
+      {"--json", {"--json"}}};
+  for (auto [option, arguments] : with_shard) {
+    arguments.insert(arguments.end(), {"--shard", "1/2"});
+    const Outcome run = Campaign("run", arguments);
+    EXPECT_EQ(run.ending, "exit code 2") << option;
+    EXPECT_THAT(run.err, ::testing::AllOf(HasSubstr("--shard"), HasSubstr(option),
+                                          HasSubstr("cannot be used together")));
+  }
+}
+
 TEST_F(CampaignCommand, InvalidInputIsReported) {
   const std::string bad = folder_.Write("bad.yaml", "scenario: s.yaml\nparameters: {sed: [1]}\n");
   const Outcome run = RunProgram("gsv", {"campaign", "run", bad});

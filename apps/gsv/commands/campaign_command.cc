@@ -89,6 +89,14 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
       code != kOk) {
     return code;
   }
+  const bool is_queued =
+      arguments.shard.empty() && options.broker.empty() && options.engine.make_queue;
+  if (is_queued && options.jobs > 0) {
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "the engine " + options.engine.type->name +
+                           " determines how many runs are executed in parallel; remove the option",
+                       fmt::format("--jobs {}", options.jobs)});
+  }
   const std::string file = ResultsFile(arguments);
   if (!arguments.shard.empty()) {
     const auto shard = ParseShard(arguments.shard);
@@ -97,7 +105,6 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   if (const int code = GatherSpool(file); code != kOk) return code;
   auto results = campaign::Results::OpenToAdd(file, campaign, kLockTimeout);
   if (!results) return PrintError(results.error());
-  const bool is_queued = options.broker.empty() && options.engine.make_queue;
   const int code = is_queued ? RunByQueue(campaign, **results, file, options, signals)
                              : RunHere(campaign, **results, options, signals);
   if (code != kOk && code != kInterrupted) return code;
@@ -215,7 +222,7 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
   EngineOptions& options = arguments->options;
   run->add_option("-j,--jobs", options.jobs,
                   "runs in parallel (default: one per processor; with --broker: up to 64)\n"
-                  "A job queue ignores this option.")
+                  "Not for job queues, which determine the number themselves.")
       ->check(Between(0, 256))
       ->type_name("N");
   run->add_option("--timeout", options.timeout, "limit of the wall-clock time of a run")
@@ -237,10 +244,12 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
                   "The value is a constraint over the properties in docs/services.md.")
       ->needs(broker)
       ->type_name("CONSTRAINT");
-  AddEngineOptions(run, arguments)->excludes(broker);
+  CLI::Option* engine = AddEngineOptions(run, arguments)->excludes(broker);
   run->add_option("--shard", arguments->shard,
-                  "run only share I (1 to N) of N equal shares of the runs\n`gsv campaign status` "
-                  "collects the results of all shares.")
+                  "run only share I (1 to N) of N equal shares of the runs, on this machine\n"
+                  "`gsv campaign status` collects the results of all shares.")
+      ->excludes(broker)
+      ->excludes(engine)
       ->type_name("I/N");
   run->callback([=] { line.exit_code = RunCampaign(*arguments, line.signals); });
 }
@@ -297,6 +306,7 @@ void AddCampaignCommand(const CommandLine& line) {
   }
   for (CLI::App* sub : {run, status})
     sub->add_flag("--json", arguments->json, "print one JSON object");
+  run->get_option("--shard")->excludes("--json");  // a share prints no summary
 }
 
 }  // namespace gsv::app
