@@ -210,6 +210,25 @@ TEST_F(HealthTrackerTest, ReadsTheSensorsOfALimitedNumberOfRobots) {
   EXPECT_TRUE(report.robots[4].limit);
 }
 
+TEST_F(HealthTrackerTest, IntensitiesOfALidarAreNoRanges) {
+  access_.sensors = [](const std::string&) {
+    model::SensorDescription lidar;
+    lidar.name = "lidar";
+    lidar.type = "lidar";
+    lidar.parameters["intensity_scale"] = 100.0;
+    return std::vector{lidar};
+  };
+  access_.read = [](const std::string&, const std::string&) {
+    sensing::Reading reading;
+    reading.values = {3, 0.7, 2, 40, 20, 0};  // three ranges and three intensities
+    return base::Result<sensing::Reading>(reading);
+  };
+  HealthTracker tracker;
+  const Report report = tracker.Update(At(20s, {Robot()}), 5s, access_);
+  ASSERT_EQ(report.robots.size(), 1u);
+  EXPECT_EQ(report.robots[0].limit, (Limit{"lidar", 0.7}));
+}
+
 TEST_F(HealthTrackerTest, ARangeOfMoreThanAMetreIsNotReportedAsObstacle) {
   range_ = 1.5;
   HealthTracker tracker;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gsv/sensing/ranges.h"
+
 namespace gsv::health {
 namespace {
 
@@ -40,7 +42,7 @@ std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& acc
     if (type == nullptr || !MeasuresRanges(*type)) continue;
     const auto reading = access.read(robot, sensor.name);
     if (!reading) continue;
-    for (const double range : reading->values) {
+    for (const double range : sensing::RangesOf(sensor, reading->values)) {
       if (!(range < kNear) || (nearest && range >= nearest->value)) continue;
       nearest = Limit{sensor.name, range};
     }

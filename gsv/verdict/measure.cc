@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "gsv/base/spelling.h"
+#include "gsv/sensing/ranges.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
 
 namespace gsv::verdict {
@@ -148,18 +149,31 @@ const world::BodyState* Measure::StateOf(const std::string& body) const {
   return index < 0 ? nullptr : &snapshot_->state.bodies[static_cast<std::size_t>(index)];
 }
 
+std::span<const double> Measure::WithoutIntensities(const scenario::Quantity& quantity,
+                                                    const sensing::Reading::Values& values) const {
+  const std::span<const double> all(values.data(), values.size());
+  const int index = snapshot_->layout->Find(quantity.first);
+  if (index < 0) return all;
+  const world::Body& body = snapshot_->layout->bodies[static_cast<std::size_t>(index)];
+  for (const model::SensorDescription& sensor : body.model->sensors) {
+    if (sensor.name == quantity.second) return sensing::RangesOf(sensor, values);
+  }
+  return all;
+}
+
 std::optional<double> Measure::OfSensor(const scenario::Quantity& quantity) const {
   const auto reading = simulation_.Watch(quantity.first, quantity.second);
   if (!reading || reading->values.empty()) return std::nullopt;
   const auto& values = reading->values;
+  const std::span<const double> ranges = WithoutIntensities(quantity, values);
   switch (quantity.take) {
     case scenario::Quantity::Take::kMin:
-      return *std::min_element(values.begin(), values.end());
+      return *std::min_element(ranges.begin(), ranges.end());
     case scenario::Quantity::Take::kMax:
-      return *std::max_element(values.begin(), values.end());
+      return *std::max_element(ranges.begin(), ranges.end());
     case scenario::Quantity::Take::kMean:
-      return std::accumulate(values.begin(), values.end(), 0.0) /
-             static_cast<double>(values.size());
+      return std::accumulate(ranges.begin(), ranges.end(), 0.0) /
+             static_cast<double>(ranges.size());
     case scenario::Quantity::Take::kOne:
       break;
   }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "gsv/scenario/expectation.h"
@@ -41,6 +42,9 @@ class Measure {
  private:
   // Returns the state of a body; null if it is not in the world.
   const world::BodyState* StateOf(const std::string& body) const;
+  // Returns the values of a sensor's reading without the intensities of a lidar.
+  std::span<const double> WithoutIntensities(const scenario::Quantity& quantity,
+                                             const sensing::Reading::Values& values) const;
   // The values of Kind::kSensor and Kind::kContact, see Quantity.
   std::optional<double> OfSensor(const scenario::Quantity& quantity) const;
   std::optional<double> OfContact(const scenario::Quantity& quantity) const;
