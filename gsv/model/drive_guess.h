@@ -3,8 +3,8 @@
 // Rule    Only wheels that FindWheels() returns and whose axle is across the model (along y) count.
 //         - A fixed wheel has no swivel joint (a joint about the vertical). A wheel on a swivel
 //           joint with limits is steered.
-//         - A wheel on a swivel joint without limits is a caster if it is behind the joint, unless
-//           "steer" is in its name. If the wheel is under the joint, it is a caster if there are
+//         - A wheel on a swivel joint without limits is a caster if it is behind the joint or in
+//           front of it, unless "steer" is in its name or in the name of one of its joints. If the wheel is under the joint, it is a caster if there are
 //           fixed wheels, but no wheels that are steered by the other rules. Else it is steered.
 //         - Fixed wheels that are clearly smaller than the largest, or in the middle between left
 //           and right, are casters too, and so are wheels with "caster" in their names. Casters are

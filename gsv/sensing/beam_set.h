@@ -37,7 +37,7 @@ class BeamSet {
   };
 
  private:
-  std::size_t size_ = 0;
+  std::size_t size_ = 0;      // number of beams, one for each Add()
   std::vector<Beams> beams_;  // in the order of Add()
 };
 

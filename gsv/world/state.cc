@@ -113,7 +113,10 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
   }
   if (body.is_rigid()) return {};
   if (!body.is_robot()) {
-    return base::Fail(ErrorCode::kInvalidArgument, "the joints of this body cannot move", place);
+    return base::Fail(
+        ErrorCode::kInvalidArgument,
+        "joint commands need a robot or a body with rigid-body dynamics; this body is neither",
+        place);
   }
   if (IsOfDrive(*body.model, joint)) {
     return base::Fail(ErrorCode::kInvalidArgument, "the robot's drive controls this joint", place);

@@ -72,7 +72,7 @@ void AddBrokerCommand(const CommandLine& line) {
   command
       ->add_option("--liveness-period", arguments->liveness_period_s,
                    "time between two checks that offered services respond; 0: no checks\n"
-                   "The offer of a service that ended is visible for at most two periods.")
+                   "The offer of a service that ended is usually visible for at most two periods.")
       ->check(Between(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();

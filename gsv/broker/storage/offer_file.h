@@ -37,6 +37,7 @@ class OfferFile : public Journal {
   // Call it before the first Append().
   [[nodiscard]] base::Status LimitPages(int pages);
 
+  // Whether changes can be stored: false after a failed write and after Close().
   bool works() const override;
   ChangeNumber Append(StateChange change) override;
   [[nodiscard]] bool Wait(ChangeNumber number) override;

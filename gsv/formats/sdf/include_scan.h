@@ -45,7 +45,8 @@ class IncludeScan {
   base::Result<std::string> ReadIncluded(const std::filesystem::path& file);
   // Returns the repaired text of an included file. Fails if the file contains no model.
   base::Result<std::string> TextOf(XmlFile& file);
-  // Replaces an <include> by a built-in model, or removes it with a warning.
+  // Replaces an <include> by a built-in model, or removes it, with a warning
+  // unless it is the built-in sun.
   void ReplaceOrRemove(tinyxml2::XMLElement& include, const std::string& uri,
                        const base::Error& error, const std::filesystem::path& file);
 

@@ -56,7 +56,7 @@ class ReplayStream {
   // How the messages of a topic are published. kPlain and kPoses: only the newest message. kEvents:
   // every message. kStatus and kClock: not at all, because the replay makes its own messages.
   enum class Kind { kPlain, kEvents, kStatus, kClock, kPoses };
-  // The messages of one channel of the recording.
+  // How a channel of the recording is published, and its newest message.
   struct Track {
     Kind kind = Kind::kPlain;
     foxglove::ChannelId channel = 0;     // 0 if the track is not published

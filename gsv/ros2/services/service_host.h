@@ -115,7 +115,8 @@ class ServiceHost {
  private:
   // Keeps replies to clients that are not yet discovered, and sends them after discovery.
   class Outbox;
-  // Logs the first request of a service that cannot be decoded.
+  // Logs the first request of each service that is dropped, for example because it cannot be decoded
+  // or because too many requests wait.
   static void Refuse(const std::string& service, const base::Error& error);
   // Passes a request to the thread of the lane. Drops it if too many wait.
   void Enqueue(const std::shared_ptr<Service>& service, Lane lane,

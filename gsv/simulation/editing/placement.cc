@@ -22,8 +22,8 @@ int FindOverlap(dynamics::Engine& engine, const world::Layout& layout, const wor
   return found;
 }
 
-// Moves the body to the nearest free place, at most its own radius away. Returns false if there is
-// no free place.
+// Tries places in 16 directions around the body, up to its own radius away, the nearest first. Moves
+// it to the first one that is free with some margin. Returns false if none is.
 bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, world::State& state) {
   constexpr double kStride = 0.01;  // distance between two tried places, m
   constexpr int kDirections = 16;

@@ -27,7 +27,7 @@ export class RecordControl {
       ({ simulation, isOpen }, before) => {
         clearTimeout(this.timer);
         // After the server has ended, its last recording is still shown. It is removed only if
-        // another simulation is shown.
+        // the page shows another simulation or a replay.
         if (simulation !== before?.simulation) this.store.set({ recording: null });
         if (simulation !== null && isOpen) void this.ask(simulation);
       },

@@ -1,4 +1,5 @@
-// Shows the assigned single keys in tooltips and in aria-keyshortcuts.
+// Shows the key of each command in tooltips and in aria-keyshortcuts: the key that the user has
+// assigned, else the default key.
 import type { ChangedKeys } from "../state/shortcuts";
 import { keyOf } from "../state/shortcuts";
 

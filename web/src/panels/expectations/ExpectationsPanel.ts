@@ -40,7 +40,7 @@ function row(ports: Ports, expectation: Expectation): HTMLElement {
     { class: "expectation", "data-verdict": verdict },
     element("span", { class: "mark-of", "aria-hidden": "true" }),
     element("span", { class: "expectation-name", title: where }, name || yaml),
-    element("span", { class: "number dim", title: "Smallest distance of the value to its limit during the run, and when it occurred. For a condition that needs to become true only once, this is the largest distance instead." }, margin && `margin ${margin}`),
+    element("span", { class: "number dim", title: "Smallest distance of the value to its limit while the expectation applies, and when it occurred. For a condition that needs to become true only once, this is the largest distance instead." }, margin && `margin ${margin}`),
     element("span", { class: "expectation-state" }, verdictWord(verdict), instant(ports, expectation)),
     detail !== "" && element("span", { class: "expectation-text" }, detail),
     element("span", { class: "expectation-text" }, name === yaml ? "" : yaml, ...expectation.bodies.flatMap((body) => [" ", bodyButton(ports, body)])),
