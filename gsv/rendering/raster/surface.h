@@ -108,7 +108,7 @@ struct EvenMaterial {
   Reflector<F> reflector;  // without a texture
   Gloss<F> gloss;
 };
-// Whether an item has such a material, and no side that is lit from behind.
+// Whether an item has such a material, and shows only the front sides of its triangles.
 inline bool IsEven(const DrawGroup& group) {
   return !group.double_sided && !group.normal && !group.metallic_roughness && !group.emissive &&
          !group.occlusion && !group.light;
@@ -133,7 +133,8 @@ struct SeenPixels {
     F4 middle{};
     for (int i = 0; i < kGroups; ++i) {
       const auto lanes = static_cast<unsigned>(seen >> 8 * i & 0xff);
-      // A group that does not see the triangle uses the levels of the other group.
+      // A group that does not see the triangle gets the level of its first pixel. Its colours are not
+      // used.
       const auto any = lanes != 0 ? lanes : 1;
       middle[i] = static_cast<float>(8 * i) +
                   0.5f * static_cast<float>(__builtin_ctz(any) + 31 - __builtin_clz(any));

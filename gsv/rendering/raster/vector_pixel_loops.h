@@ -9,6 +9,7 @@
 
 namespace gsv::rendering::raster {
 
+// The loops for vectors of type F (F8 or F16, see simd.h).
 template <class F>
 class VectorPixelLoops final : public PixelLoops {
   using Ints = typename Lanes<F>::Ints;
@@ -150,6 +151,7 @@ class VectorPixelLoops final : public PixelLoops {
     return AddSurface(visible_.triangles[id - 1]);
   }
 
+  // Appends the surface of a triangle to surfaces_. The result is valid until the next call.
   __attribute__((noinline)) const Surface& AddSurface(const Triangle& triangle) {
     const Drawn& drawn = visible_.drawn[triangle.drawn];
     Surface& surface = surfaces_.emplace_back();
@@ -262,6 +264,7 @@ class VectorPixelLoops final : public PixelLoops {
     return kLanes == 16 && left <= 8 ? lanes & 0xff : lanes;
   }
 
+  // Returns the directions of the rays through the pixels from (x, y) to the right.
   Three<F> RayAt(int x, int y) const {
     const F px = Splat<F>(static_cast<float>(x)) + Steps<F>();
     const float py = static_cast<float>(y);
@@ -273,6 +276,7 @@ class VectorPixelLoops final : public PixelLoops {
 
   static constexpr int kAll = (1 << kLanes) - 1;
 
+  // Notes that a transparent item was blended in the tile of pixel (x, y).
   void MarkBlended(int x, int y) {
     const int columns = (image_.width + kTileWidth - 1) / kTileWidth;
     image_.is_blended[y / kTileHeight * columns + x / kTileWidth] = 1;
