@@ -19,7 +19,8 @@ constexpr std::size_t kMinPacket = 3;
 // * link_from_sensor, and points along the x axis of world_from_sensor. The results are
 // bit-identical to those of class Pose, because the operations and their order are the same.
 GSV_FOR_EACH_PROCESSOR
-void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
+void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& __restrict beams,
+               RayPacket& __restrict rays) {
   const double tx = world_from_link.position.x, ty = world_from_link.position.y,
                tz = world_from_link.position.z;
   const double aw = world_from_link.orientation.w, ax = world_from_link.orientation.x,
