@@ -44,7 +44,7 @@ ThreadTeam::~ThreadTeam() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void ThreadTeam::Run(const Job& job) {
+void ThreadTeam::Open(const Job& job) {
   GSV_CHECK(job.grain > 0);
   job_ = job;
   const std::size_t pieces = (job.count + job.grain - 1) / job.grain;
@@ -57,8 +57,6 @@ void ThreadTeam::Run(const Job& job) {
     state_.store(kOpen, std::memory_order_release);
   }
   called_.notify_all();
-  RunPieces(0);
-  WaitForWorkers();
 }
 
 // The caller first polls, because the workers usually finish soon. Then it sleeps, so that a long
@@ -85,6 +83,7 @@ void ThreadTeam::RunPieces(std::size_t self) {
   // No piece is left. The first thread that notices this closes the job, so that no other thread
   // joins it while the last pieces are in progress.
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
+  job_.end(job_.work, self);
 }
 
 bool ThreadTeam::TryJoin() {

@@ -35,24 +35,36 @@ class ThreadTeam {
   // thread: for the whole range), and returns when all calls have returned. If there is only one
   // piece, the caller processes it and no worker is woken. `work` does not throw and calls no
   // ParallelFor() itself. It may have a third parameter: the index of the calling thread, from 0 to
-  // threads() - 1.
+  // threads() - 1. If it has a function End(thread), each thread calls it after its last piece.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
+    ParallelFor(count, grain, work, [] {});
+  }
+  // Also calls own() on the calling thread, while the workers already process pieces. `own` does
+  // not throw, calls no ParallelFor() itself, and does not depend on the pieces.
+  template <class Work, class Own>
+  void ParallelFor(std::size_t count, std::size_t grain, const Work& work, const Own& own) {
     if (count <= grain || workers_.empty()) {
+      own();
       if (count > 0) Call<Work>(&work, 0, count, 0);
+      if (count > 0) End<Work>(&work, 0);
       return;
     }
-    Run({count, grain, &work, &Call<Work>});
+    Open({count, grain, &work, &Call<Work>, &End<Work>});
+    own();
+    RunPieces(0);
+    WaitForWorkers();
   }
 
  private:
-  // One call of ParallelFor(): its arguments, and the instance of Call() that converts `work` back
-  // to its type.
+  // One call of ParallelFor(): its arguments, and the instances of Call() and End() that convert
+  // `work` back to its type.
   struct Job {
     std::size_t count = 0, grain = 1;
     const void* work = nullptr;
     void (*call)(const void* work, std::size_t begin, std::size_t end,
                  std::size_t thread) = nullptr;
+    void (*end)(const void* work, std::size_t thread) = nullptr;
   };
 
   template <class Work>
@@ -65,9 +77,16 @@ class ThreadTeam {
       work(begin, end);
     }
   }
+  // Calls the function End() of `of`, if it has one.
+  template <class Work>
+  static void End(const void* of, std::size_t thread) {
+    if constexpr (requires(const Work& work) { work.End(thread); }) {
+      static_cast<const Work*>(of)->End(thread);
+    }
+  }
 
-  // Divides the job among the threads, processes pieces of it, and returns when the job is done.
-  void Run(const Job& job);
+  // Divides the job among the threads, and lets the workers join it.
+  void Open(const Job& job);
   // The function of each worker thread. `self` is the index of the thread, see ParallelFor().
   void Work(std::size_t self);
   // Returns when all workers that have joined the job have left it.

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,44 @@ TEST(ThreadTeam, PassesADifferentIndexForEachThread) {
     EXPECT_EQ(index_of.at(std::this_thread::get_id()), 0u) << "the index of the caller";
     EXPECT_EQ(indices.size(), index_of.size());
     EXPECT_LT(*indices.rbegin(), static_cast<std::size_t>(threads));
+  }
+}
+
+TEST(ThreadTeam, CallerDoesItsOwnWorkOnce) {
+  for (const int threads : {1, 3}) {
+    ThreadTeam team(threads);
+    for (const std::size_t count : {0u, 1u, 100u}) {
+      std::atomic<std::size_t> visited{0};
+      std::vector<std::thread::id> own;
+      team.ParallelFor(
+          count, 7, [&](std::size_t begin, std::size_t end) { visited += end - begin; },
+          [&] { own.push_back(std::this_thread::get_id()); });
+      EXPECT_EQ(visited, count);
+      EXPECT_EQ(own, std::vector{std::this_thread::get_id()});
+    }
+  }
+}
+
+// Counts the visited indices of each thread, and passes the counts on in End().
+struct CountingWork {
+  void operator()(std::size_t begin, std::size_t end, std::size_t thread) const {
+    visited[thread] += end - begin;
+  }
+  void End(std::size_t thread) const { ended += std::exchange(visited[thread], 0); }
+
+  std::vector<std::size_t>& visited;  // by each thread since its last End()
+  std::atomic<std::size_t>& ended;
+};
+
+TEST(ThreadTeam, EachThreadEndsAfterItsLastPiece) {
+  for (const int threads : {1, 3}) {
+    ThreadTeam team(threads);
+    for (const std::size_t count : {0u, 1u, 5u, 1000u}) {
+      std::vector<std::size_t> visited(static_cast<std::size_t>(threads));
+      std::atomic<std::size_t> ended{0};
+      team.ParallelFor(count, 7, CountingWork{visited, ended});
+      EXPECT_EQ(ended, count) << threads;
+    }
   }
 }
 

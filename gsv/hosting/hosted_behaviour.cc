@@ -89,22 +89,28 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
   sweeps_ = robot_->sweeps();
 }
 
+// The result is constructed in place: a copy would have to wait until the processor has written the
+// command's values to its cache.
+DriveCommand HostedBehaviour::ControlOnce() {
+  const std::vector<Reading>& readings = robot_->ReadOpenSensors();
+  try {
+    if (robot_->IsRunning()) return controller_->Control(readings);
+  } catch (const std::exception& exception) {
+    failure_ = FailureOf(exception);
+    robot_->End();
+  }
+  return {};
+}
+
 // Executes a controller's turn: the part of Controller::Run() between two waits.
 void HostedBehaviour::Control(simulation::Turn& turn) {
-  DriveCommand command;
   if (!next_) {
     next_ = turn.now() + controller_->period();
+    robot_->Command({});
   } else {
-    const std::vector<Reading>& readings = robot_->ReadOpenSensors();
-    try {
-      if (robot_->IsRunning()) command = controller_->Control(readings);
-    } catch (const std::exception& exception) {
-      failure_ = FailureOf(exception);
-      robot_->End();
-    }
+    robot_->Command(ControlOnce());
     *next_ += controller_->period();
   }
-  robot_->Command(command);
   if (!robot_->IsRunning()) return EndTurn(turn);
   turn.CountExchange();
   turn.WaitUntil(*next_);

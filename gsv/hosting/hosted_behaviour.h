@@ -39,6 +39,8 @@ class alignas(64) HostedBehaviour final : public simulation::LocalBehaviour {
  private:
   void Run() GSV_REQUIRES(mutex_);
   void Control(simulation::Turn& turn) GSV_REQUIRES(mutex_);
+  // Passes new readings to the controller. Returns its command, or a stop if the run ends.
+  DriveCommand ControlOnce() GSV_REQUIRES(mutex_);
   void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // Called after the last turn.
   // Ends the run, so that the behaviour returns.
   void EndRun() GSV_REQUIRES(mutex_);

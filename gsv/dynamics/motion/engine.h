@@ -32,6 +32,9 @@ class MotionFollower {
   // before. `may_touch` is true if the body may have contacts. Threads: calls for different bodies
   // may run concurrently if `may_touch` is false.
   virtual void OnMoved(int body, int steps, int steps_left, bool may_touch) = 0;
+  // The contacts of the last step are complete, and all bodies that may have contacts have taken all
+  // steps. Threads: other bodies may still move.
+  virtual void OnContacts() {}
 };
 
 // The interface of a physics engine.

@@ -136,9 +136,10 @@ void MoverCollisions::AddIfNear(std::uint32_t first, std::uint32_t second,
   if (touches) touching_.push_back({scene_.movers()[first].body, scene_.movers()[second].body});
 }
 
-void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
-                           std::span<const geometry::Twist> twists, std::span<double> times,
-                           std::span<Vector2> normals) {
+void MoverCollisions::StopIn(base::ThreadTeam* team,
+                             std::span<const geometry::PlanarPosition> starts,
+                             std::span<const geometry::Twist> twists, std::span<double> times,
+                             std::span<Vector2> normals) {
   outcomes_.resize(times.size());
   for (const MoverPair& pair : pairs_) {
     for (const std::uint32_t m : {pair.first, pair.second}) outcomes_[m] = {times[m], 0, 0};
@@ -146,7 +147,7 @@ void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
   const Motions motions{starts, twists, times};
   bool any = !pairs_.empty();
   for (int round = 0; any; ++round) {
-    FindImpacts(motions, round);
+    FindImpacts(team, motions, round);
     any = false;
     const auto stop = [&](std::uint32_t m, double time, Vector2 normal) {
       if (round >= kIterations) time = 0;
@@ -172,16 +173,21 @@ void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
 }
 
 // Finds the impact of each pair in which a mover has a new stop time in this iteration.
-void MoverCollisions::FindImpacts(const Motions& motions, int round) {
+void MoverCollisions::FindImpacts(base::ThreadTeam* team, const Motions& motions, int round) {
   impacts_.resize(pairs_.size());
-  team_.ParallelFor(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
+  const auto find = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const MoverPair& pair = pairs_[i];
       const bool is_new =
           outcomes_[pair.first].since == round || outcomes_[pair.second].since == round;
       impacts_[i] = is_new ? PairImpact(motions, pair) : std::nullopt;
     }
-  });
+  };
+  if (team != nullptr) {
+    team->ParallelFor(pairs_.size(), kPairsAtOnce, find);
+  } else {
+    find(0, pairs_.size());
+  }
 }
 
 std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,

@@ -67,7 +67,15 @@ class MoverCollisions {
   // towards the other mover.
   void Stop(std::span<const geometry::PlanarPosition> starts,
             std::span<const geometry::Twist> twists, std::span<double> times,
-            std::span<Vector2> normals);
+            std::span<Vector2> normals) {
+    StopIn(&team_, starts, twists, times, normals);
+  }
+  // As Stop(), but the calling thread does all work, so the team may work on something else.
+  void StopAlone(std::span<const geometry::PlanarPosition> starts,
+                 std::span<const geometry::Twist> twists, std::span<double> times,
+                 std::span<Vector2> normals) {
+    StopIn(nullptr, starts, twists, times, normals);
+  }
 
   // Appends to `touching` the listed pairs that touched at the `starts` of the last Find(),
   // FindMarked() or FindOf().
@@ -125,8 +133,12 @@ class MoverCollisions {
   Separation SeparationAt(const MoverPair& pair, const PiecePair& pieces,
                           const geometry::PlanarPosition& first_at,
                           const geometry::PlanarPosition& second_at) const;
+  // Stop() on the threads of a team; on the calling thread if `team` is null.
+  void StopIn(base::ThreadTeam* team, std::span<const geometry::PlanarPosition> starts,
+              std::span<const geometry::Twist> twists, std::span<double> times,
+              std::span<Vector2> normals);
   // Computes impacts_ for the pairs with a mover whose stop time has changed in this iteration.
-  void FindImpacts(const Motions& motions, int round);
+  void FindImpacts(base::ThreadTeam* team, const Motions& motions, int round);
   // Returns the first impact of two movers, also after one of them has stopped.
   std::optional<Impact> PairImpact(const Motions& motions, const MoverPair& pair) const;
   // Returns the first impact of any two pieces of the pair before `end`.

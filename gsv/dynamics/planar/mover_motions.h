@@ -145,12 +145,17 @@ inline void MoverMotions::SetReach(std::uint32_t m, const world::State& state, d
 [[gnu::always_inline]] inline void MoverMotions::Repeat(std::uint32_t m, const Journey& journey,
                                                         int steps, world::State& state) {
   if (times[m] <= 0) return;
-  geometry::PlanarPosition& at = positions[m];
+  // The sums stay in registers, because a load of two numbers at once would have to wait until both
+  // were written to the cache.
+  geometry::PlanarPosition at = positions[m];
   world::BodyState& body = state.bodies[scene_.movers()[m].body];
+  double distance = body.distance;
   for (int i = 0; i < steps; ++i) {
     at = Advance(at, twists[m], times[m]);
-    body.distance += journey.distance;
+    distance += journey.distance;
   }
+  positions[m] = at;
+  body.distance = distance;
   body.world_from_model.position.x = at.x;
   body.world_from_model.position.y = at.y;
 }

@@ -14,10 +14,14 @@ namespace {
 
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
-constexpr std::size_t kChunk = 32;
+constexpr std::size_t kChunk = 16;
 // The number of chunks that one thread processes at a time, and the minimum number of chunks for
 // which a second thread saves time.
-constexpr std::size_t kChunksAtOnce = 2, kMinChunks = 8;
+constexpr std::size_t kChunksAtOnce = 4, kMinChunks = 16;
+
+// The same two numbers for the search for near movers. The range is divided among the threads almost
+// as in the loop with kMoversAtOnce, so that each thread finds its movers in its cache.
+constexpr std::size_t kNearChunksAtOnce = 1, kMinNearChunks = 4;
 
 // StepMany() moves the movers that may touch something in one thread, but Step() divides all movers
 // among the threads. So StepMany() returns false if more than 1 / kMaxNearShare of the movers may
@@ -52,6 +56,8 @@ class TeamMover final : public PlanarMover {
   };
   struct alignas(64) Chunk {  // aligned to a cache line, because threads write to adjacent chunks
     bool is_as_sliced, has_room;
+    // Used by FindNear(): bit i stands for mover i of the chunk, which may touch something.
+    std::uint32_t near;
     std::vector<std::uint32_t> in_contact;  // movers that were in contact before the step
     std::vector<Stopped> stopped;
   };
@@ -85,6 +91,8 @@ class TeamMover final : public PlanarMover {
   void StepNear(base::SimTime now, double seconds, world::State& state,
                 std::vector<world::Contact>& contacts);
   void ListTouching();
+  // Stops movers where they touch each other.
+  void StopPairs();
   void RunStopped();
   void SlideAlong(double seconds);
   void TurnOnTheSpot();
@@ -109,6 +117,8 @@ class TeamMover final : public PlanarMover {
   // Used by StepMany().
   std::vector<std::uint8_t> is_near_;  // for each mover, whether it may touch something
   std::vector<std::uint32_t> near_;    // these movers, in ascending order
+  // Whether the movers of near_ take their steps, while the team moves the other movers.
+  bool moves_near_ = false;
   int patience_ = 0;  // number of further calls of StepMany() that return false at once
 };
 
@@ -184,6 +194,7 @@ void TeamMover::BeginChunk(std::size_t index, const world::State& state, double 
 void TeamMover::ClearChunk(std::size_t index) {
   Chunk& chunk = chunks_[index];
   chunk.is_as_sliced = chunk.has_room = true;
+  chunk.near = 0;
   chunk.in_contact.clear();
   chunk.stopped.clear();
   obstacles_.Clear(index);
@@ -228,11 +239,16 @@ void TeamMover::EndChunk(std::size_t index, double seconds, world::State& state)
   motions_.SetLeg(m, geometry::Twist{}, 0);
 }
 
+void TeamMover::StopPairs() {
+  const auto stop = moves_near_ ? &MoverCollisions::StopAlone : &MoverCollisions::Stop;
+  (pairs_.*stop)(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+}
+
 void TeamMover::RunStopped() {
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     obstacles_.Stop(i, motions_.positions, motions_.twists, motions_.times, motions_.normals);
   }
-  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  StopPairs();
   for (Stopped& stopped : stopped_) motions_.RunLeg(stopped.mover, stopped.journey);
 }
 
@@ -320,7 +336,7 @@ void TeamMover::Step(base::SimTime step, world::State& state,
   GSV_CHECK(step > base::SimTime(0));
   const double seconds = base::ToSeconds(step);
   Begin(state, seconds);
-  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  StopPairs();
   ForEachChunk([&](std::size_t i) { EndChunk(i, seconds, state); });
   Finish(seconds, state, contacts);
 }
@@ -343,6 +359,7 @@ void TeamMover::Finish(double seconds, world::State& state, std::vector<world::C
 // Most movers are far from everything that they could touch in a few steps. Each of these movers
 // takes all its steps at once, while its data are in the cache. The result is the same as with
 // single steps: in each single step, no obstacle and no other mover would be near such a mover.
+// Meanwhile, the calling thread moves the other movers step by step.
 bool TeamMover::StepMany(base::SimTime step, int steps, world::State& state,
                          std::vector<world::Contact>& contacts, MotionFollower& follower) {
   GSV_CHECK(step > base::SimTime(0) && steps >= 2);
@@ -353,28 +370,40 @@ bool TeamMover::StepMany(base::SimTime step, int steps, world::State& state,
   }
   if (scene_.has_dynamic() || !scene_.HasValidSlices(state)) return false;
   if (!FindNear(state, seconds, steps)) return false;
-  team_->ParallelFor(count(), kMoversAtOnce, [&](std::size_t begin, std::size_t end) {
+  const auto move_freely = [&](std::size_t begin, std::size_t end) {
     for (auto m = static_cast<std::uint32_t>(begin); m < end; ++m) {
       if (is_near_[m] == 0) MoveFreely(m, step, steps, state, follower);
     }
-  });
-  for (int i = 0; i < steps; ++i) {
-    StepNear(state.time + i * step, seconds, state, contacts);
-    for (const std::uint32_t m : near_) {
-      follower.OnMoved(scene_.movers()[m].body, 1, steps - 1 - i, true);
+  };
+  const auto move_near = [&] {
+    moves_near_ = true;
+    for (int i = 0; i < steps; ++i) {
+      StepNear(state.time + i * step, seconds, state, contacts);
+      for (const std::uint32_t m : near_) {
+        follower.OnMoved(scene_.movers()[m].body, 1, steps - 1 - i, true);
+      }
     }
-  }
+    moves_near_ = false;
+    follower.OnContacts();
+  };
+  team_->ParallelFor(count(), kMoversAtOnce, move_freely, move_near);
   return true;
 }
 
 bool TeamMover::FindNear(const world::State& state, double seconds, int steps) {
-  ForEachChunk([&](std::size_t i) { FindNearChunk(i, state, seconds, steps); });
+  const std::size_t at_once = chunks_.size() < kMinNearChunks ? kMinNearChunks : kNearChunksAtOnce;
+  team_->ParallelFor(chunks_.size(), at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) FindNearChunk(i, state, seconds, steps);
+  });
   bool has_room = true;
   for (const Chunk& chunk : chunks_) {
     if (!chunk.is_as_sliced) return false;
     has_room = has_room && chunk.has_room;
   }
   if (!has_room) pairs_.FindCandidates(motions_.positions, motions_.reaches);
+  for (std::uint32_t m = 0; m < count(); ++m) {
+    is_near_[m] = chunks_[m / kChunk].near >> m % kChunk & 1;
+  }
   pairs_.MarkNear(motions_.positions, motions_.reaches, is_near_);
   near_.clear();
   for (std::uint32_t m = 0; m < count(); ++m) {
@@ -403,7 +432,9 @@ void TeamMover::FindNearChunk(std::size_t index, const world::State& state, doub
       motions_.Load(m, state);
       obstacles_.Find(index, m, at, reach);
     }
-    is_near_[m] = body.in_contact || !obstacles_.IsClear(m, at, reach) ? 1 : 0;
+    const bool is_near = body.in_contact || !obstacles_.IsClear(m, at, reach);
+    // Not a byte for each mover: threads would write to one cache line at the same time.
+    chunk.near |= static_cast<std::uint32_t>(is_near) << m % kChunk;
   }
   obstacles_.Clear(index);  // StepNear() calls obstacles_.Find() again in each of its steps
 }
@@ -446,7 +477,7 @@ void TeamMover::StepNear(base::SimTime now, double seconds, world::State& state,
   obstacles_.Stop(0, motions_.positions, motions_.twists, motions_.times, motions_.normals);
   pairs_.FindMarked(motions_.positions, motions_.reaches);
   ListTouching();
-  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  StopPairs();
   for (const std::uint32_t m : near_) EndMover(0, m, seconds, state);
   Finish(seconds, state, contacts);
 }

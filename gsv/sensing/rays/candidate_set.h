@@ -25,6 +25,12 @@ struct BoundingSphere {
   double radius = 0;         // m
 };
 
+// Returns the bounding box of a sphere.
+inline geometry::Bounds BoundsOf(const BoundingSphere& sphere) {
+  const geometry::Vector3 reach{sphere.radius, sphere.radius, sphere.radius};
+  return {sphere.centre - reach, sphere.centre + reach};
+}
+
 // The solids near a point. Rays from there may hit these solids.
 class CandidateSet {
  public:

@@ -62,11 +62,15 @@ LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std
   }
   standing.Commit();
   for (const auto& [body, model] : bodies) {
+    first_part.resize(static_cast<std::size_t>(body) + 1,
+                      static_cast<std::uint32_t>(moving.size()));
     for (const Part& part : models[model]) {
+      follow_bodies = follow_bodies && part.link < 0 && !part.solids.endless();
       (part.solids.endless() ? endless : moving).push_back({&part, body});
     }
   }
   bounded = moving.size();
+  first_part.resize(layout->bodies.size() + 1, static_cast<std::uint32_t>(bounded));
   moving.insert(moving.end(), endless.begin(), endless.end());
 }
 

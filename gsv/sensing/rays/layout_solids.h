@@ -37,6 +37,11 @@ struct LayoutSolids {
   std::vector<std::vector<Part>> models;  // the parts of each model that moving bodies have
   std::vector<BodyPart> moving;           // ordered by body, with unbounded parts last
   std::size_t bounded = 0;                // number of bounded parts in `moving`
+  // The index in `moving` of the first bounded part of each body. The last element is `bounded`.
+  std::vector<std::uint32_t> first_part;
+  // Whether the pose of a moving body alone determines where its solids are: all parts are bounded,
+  // and no part moves with a joint.
+  bool follow_bodies = true;
 };
 
 }  // namespace gsv::sensing

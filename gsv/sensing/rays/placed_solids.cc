@@ -214,21 +214,20 @@ constinit thread_local PacketCaster::Pairs PacketCaster::pairs_;
   if (part->link >= 0) {
     world_from_part = world_from_part * world::ModelFromLink(snapshot, body, part->link);
   }
+  PlaceAt(index, world_from_part);
+}
+
+[[gnu::flatten]] void PlacedSolids::PlaceAt(std::size_t index,
+                                            const geometry::Pose& world_from_part) {
+  const Part* const part = solids_->moving[index].part;
   parts_[index] = {Inverse(world_from_part), part};
   if (index >= solids_->bounded) return;
-  const Vector3 centre = world_from_part * part->ball.centre;
-  const double radius = part->ball.radius;
-  const Vector3 reach{radius, radius, radius};
-  spheres_[index] = {centre, radius};
-  boxes_[index] = {centre - reach, centre + reach};
+  spheres_[index] = {world_from_part * part->ball.centre, part->ball.radius};
 }
 
 void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
                           const world::Snapshot& snapshot, base::ThreadTeam* team) {
-  solids_ = std::move(solids);
-  parts_.resize(solids_->moving.size());
-  spheres_.resize(solids_->bounded);
-  boxes_.resize(solids_->bounded);
+  BeginMove(std::move(solids));
   const auto place = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) Place(i, snapshot);
   };
@@ -237,7 +236,17 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
   } else {
     place(0, parts_.size());
   }
-  grid_.Build(spheres_, boxes_);
+  EndMove();
+}
+
+void PlacedSolids::BeginMove(std::shared_ptr<const LayoutSolids> solids) {
+  solids_ = std::move(solids);
+  parts_.resize(solids_->moving.size());
+  spheres_.resize(solids_->bounded);
+}
+
+void PlacedSolids::EndMove() {
+  grid_.Build(spheres_, {});
   is_indexed_.store(false, std::memory_order_relaxed);
 }
 
@@ -245,6 +254,8 @@ const BoxIndex& PlacedSolids::index() const {
   if (!is_indexed_.load(std::memory_order_acquire)) {
     const base::MutexLock lock(index_mutex_);
     if (!is_indexed_.load(std::memory_order_relaxed)) {
+      boxes_.clear();
+      for (const BoundingSphere& sphere : spheres_) boxes_.push_back(BoundsOf(sphere));
       index_.Build(boxes_, /*often=*/true);
       is_indexed_.store(true, std::memory_order_release);
     }

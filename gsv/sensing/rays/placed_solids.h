@@ -26,6 +26,17 @@ class PlacedSolids final : public RayScene {
   // may be cast during this call.
   void MoveTo(std::shared_ptr<const LayoutSolids> solids, const world::Snapshot& snapshot,
               base::ThreadTeam* team);
+  // Do the same in steps: between BeginMove() and EndMove(), the caller calls PlaceBody() for each
+  // moving body. Calls for different bodies may run concurrently. LayoutSolids::follow_bodies must
+  // be true.
+  void BeginMove(std::shared_ptr<const LayoutSolids> solids);
+  void PlaceBody(int body, const geometry::Pose& world_from_model) {
+    const auto i = static_cast<std::size_t>(body);
+    for (std::uint32_t at = solids_->first_part[i]; at < solids_->first_part[i + 1]; ++at) {
+      PlaceAt(at, world_from_model);
+    }
+  }
+  void EndMove();
 
   std::optional<Hit> Cast(const Ray& ray, int ignored_body) const override;
   void Cast(std::span<const Ray> rays, int ignored_body,
@@ -51,7 +62,8 @@ class PlacedSolids final : public RayScene {
 
   // Sets the pose of the moving part with this index.
   void Place(std::size_t index, const world::Snapshot& snapshot);
-  // Returns the index of boxes_, and builds it on first use.
+  void PlaceAt(std::size_t index, const geometry::Pose& world_from_part);
+  // Returns the index of the bounding boxes of spheres_, and builds it on first use.
   const BoxIndex& index() const;
   int BodyOf(std::size_t part) const { return solids_->moving[part].body; }
   // Returns the nearest hit of a ray.
@@ -79,16 +91,17 @@ class PlacedSolids final : public RayScene {
   void CastInto(std::uint32_t solid, const Sector& sector, const Fan& fan, RayRow& row) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
-  // The next vectors have the order of LayoutSolids::moving. The last two vectors contain only
-  // bounded parts.
+  // The next two vectors have the order of LayoutSolids::moving. `spheres_` contains only bounded
+  // parts.
   std::vector<PlacedPart> parts_;
   std::vector<BoundingSphere> spheres_;  // bounding spheres in the world
-  std::vector<geometry::Bounds> boxes_;  // bounding boxes in the world
   SphereGrid grid_;                      // the grid of spheres_, for packets
 
-  // The index of boxes_, for rays outside of packets. The first such ray builds it.
+  // The index of the spheres' bounding boxes, for rays outside of packets. The first such ray builds
+  // it.
   mutable base::Mutex index_mutex_;
-  mutable std::atomic<bool> is_indexed_{false};  // whether index_ is built for the present boxes_
+  mutable std::atomic<bool> is_indexed_{false};  // whether index_ is built for the present spheres_
+  mutable std::vector<geometry::Bounds> boxes_ GSV_GUARDED_BY(index_mutex_);  // for index_
   mutable BoxIndex index_;
 };
 

@@ -45,6 +45,23 @@ class RaySceneCache::Impl {
     return entry->scene;
   }
 
+  std::unique_ptr<SceneDraft> Begin(const std::shared_ptr<const world::Layout>& layout) {
+    std::shared_ptr<Solids> solids;
+    {
+      const base::MutexLock lock(mutex_);
+      solids = SolidsOf(layout);
+    }
+    if (!Built(*solids)->follow_bodies) return nullptr;
+    std::unique_ptr<PlacedSolids> scene = pool_->Take();
+    scene->BeginMove(solids->solids);
+    return std::make_unique<Draft>(std::move(scene), pool_);
+  }
+
+  void Add(const std::shared_ptr<const world::Snapshot>& snapshot,
+           std::unique_ptr<SceneDraft> draft) {
+    FindOrAdd(snapshot)->draft = std::move(static_cast<Draft&>(*draft).scene);
+  }
+
  private:
   // The number of scenes that the cache keeps. Readers that are a few steps late still find the
   // scene of their step.
@@ -59,34 +76,66 @@ class RaySceneCache::Impl {
     std::shared_ptr<const world::Snapshot> snapshot;
     std::shared_ptr<Solids> solids;  // solids of the snapshot's layout
     std::once_flag is_built;
+    // the scene before it is complete; null if there was no draft
+    std::unique_ptr<PlacedSolids> draft;
     std::shared_ptr<const RayScene> scene;  // null until the scene is built
   };
+  // A draft, and the pool to which its scene returns if the draft is not used.
+  struct Draft final : SceneDraft {
+    Draft(std::unique_ptr<PlacedSolids> of, std::shared_ptr<Pool> from)
+        : scene(std::move(of)), pool(std::move(from)) {}
+    ~Draft() override {
+      if (scene != nullptr) pool->Return(std::move(scene));
+    }
+    Draft(const Draft&) = delete;
+    Draft& operator=(const Draft&) = delete;
+    void Place(int body, const geometry::Pose& world_from_model) override {
+      scene->PlaceBody(body, world_from_model);
+    }
+
+    std::unique_ptr<PlacedSolids> scene;
+    const std::shared_ptr<Pool> pool;
+  };
+
+  // Returns the solids of a layout, which may not be built yet.
+  const std::shared_ptr<Solids>& SolidsOf(const std::shared_ptr<const world::Layout>& layout)
+      GSV_REQUIRES(mutex_) {
+    if (solids_ == nullptr || solids_->layout != layout) {
+      solids_ = std::make_shared<Solids>();
+      solids_->layout = layout;
+    }
+    return solids_;
+  }
+
+  static const std::shared_ptr<const LayoutSolids>& Built(Solids& solids) {
+    std::call_once(solids.is_built,
+                   [&] { solids.solids = std::make_shared<const LayoutSolids>(solids.layout); });
+    return solids.solids;
+  }
 
   std::shared_ptr<Entry> FindOrAdd(const std::shared_ptr<const world::Snapshot>& snapshot) {
     const base::MutexLock lock(mutex_);
     for (const auto& entry : recent_) {
       if (entry->snapshot == snapshot) return entry;
     }
-    if (solids_ == nullptr || solids_->layout != snapshot->layout) {
-      solids_ = std::make_shared<Solids>();
-      solids_->layout = snapshot->layout;
-    }
     // If nobody else uses the scene of the removed entry, the scene returns to the pool and is
     // reused.
     if (recent_.size() == kRecent) recent_.pop_front();
     auto entry = std::make_shared<Entry>();
     entry->snapshot = snapshot;
-    entry->solids = solids_;
+    entry->solids = SolidsOf(snapshot->layout);
     recent_.push_back(entry);
     return entry;
   }
 
-  std::shared_ptr<const RayScene> Build(const Entry& entry, base::ThreadTeam* team) const {
-    Solids& solids = *entry.solids;
-    std::call_once(solids.is_built,
-                   [&] { solids.solids = std::make_shared<const LayoutSolids>(solids.layout); });
-    std::unique_ptr<PlacedSolids> scene = pool_->Take();
-    scene->MoveTo(solids.solids, *entry.snapshot, team);
+  std::shared_ptr<const RayScene> Build(Entry& entry, base::ThreadTeam* team) const {
+    std::unique_ptr<PlacedSolids> scene = std::move(entry.draft);
+    if (scene != nullptr) {
+      scene->EndMove();
+    } else {
+      scene = pool_->Take();
+      scene->MoveTo(Built(*entry.solids), *entry.snapshot, team);
+    }
     return {scene.release(), [pool = pool_](const PlacedSolids* done) {
               pool->Return(std::unique_ptr<PlacedSolids>(const_cast<PlacedSolids*>(done)));
             }};
@@ -104,6 +153,16 @@ RaySceneCache::~RaySceneCache() = default;
 std::shared_ptr<const RayScene> RaySceneCache::At(
     const std::shared_ptr<const world::Snapshot>& snapshot, base::ThreadTeam* team) {
   return impl_->At(snapshot, team);
+}
+
+std::unique_ptr<SceneDraft> RaySceneCache::Begin(
+    const std::shared_ptr<const world::Layout>& layout) {
+  return impl_->Begin(layout);
+}
+
+void RaySceneCache::Add(const std::shared_ptr<const world::Snapshot>& snapshot,
+                        std::unique_ptr<SceneDraft> draft) {
+  impl_->Add(snapshot, std::move(draft));
 }
 
 }  // namespace gsv::sensing

@@ -61,6 +61,14 @@ class RayScene : public world::RayCaster {
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
 
+// A ray scene whose bodies are not yet all at their places, see RaySceneCache::Begin().
+class SceneDraft {
+ public:
+  virtual ~SceneDraft() = default;
+  // Places the solids of a body. Threads: calls for different bodies may run concurrently.
+  virtual void Place(int body, const geometry::Pose& world_from_model) = 0;
+};
+
 // Builds the ray scenes of snapshots on demand. The static part is built once per layout, and a
 // scene without users is reused for the next snapshot.
 class RaySceneCache {
@@ -74,6 +82,15 @@ class RaySceneCache {
   // snapshots return the same scene. Builds scenes in parallel on `team`, if it is given.
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
                                      base::ThreadTeam* team = nullptr);
+
+  // Begins the scene of a snapshot before the snapshot is complete. The caller places each body of
+  // the layout that is not static, and then passes the draft to Add(). So bodies can be placed
+  // while they are in the cache of a processor. Returns null if the poses of bodies are not enough,
+  // because solids move with joints or are unbounded.
+  std::unique_ptr<SceneDraft> Begin(const std::shared_ptr<const world::Layout>& layout);
+  // At() then completes this draft if it is called for the snapshot.
+  void Add(const std::shared_ptr<const world::Snapshot>& snapshot,
+           std::unique_ptr<SceneDraft> draft);
 
  private:
   class Impl;

@@ -90,6 +90,45 @@ TEST(RayScene, EqualsABruteForceSearch) {
   EXPECT_GT(hits, 1000);
 }
 
+// Poses of the moving bodies are enough for a draft if no solids move with joints.
+TEST(RaySceneCache, SceneOfADraftEqualsTheSceneOfItsSnapshot) {
+  Random random(21);
+  std::vector<Placed> bodies;
+  for (int i = 0; i < 60; ++i) {
+    bodies.push_back({"body" + std::to_string(i),
+                      ModelOf(i % 2 == 0 ? geometry::Shape(geometry::Box{{1, 2, 0.5}})
+                                         : geometry::Shape(geometry::Sphere{0.8})),
+                      random.AnyPose(12), i % 3 == 0});
+  }
+  const auto snapshot = MakeSnapshot(bodies);
+  RaySceneCache cache, other;
+  for (int round = 0; round < 3; ++round) {
+    // The snapshot of this round is complete only after the draft has begun.
+    auto next = std::make_shared<world::Snapshot>(*snapshot);
+    auto draft = cache.Begin(next->layout);
+    ASSERT_NE(draft, nullptr);
+    for (int i = 0; i < 60; ++i) {
+      if (i % 3 == 0) continue;
+      const int body = next->layout->Find("body" + std::to_string(i));
+      const Pose pose = random.AnyPose(12);
+      next->state.bodies[static_cast<std::size_t>(body)].world_from_model = pose;
+      draft->Place(body, pose);
+    }
+    cache.Add(next, std::move(draft));
+    const auto scene = cache.At(next), expected = other.At(next);
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray{random.Point(14), Normalized(random.Point(1)), 40};
+      ASSERT_EQ(scene->Range(ray, -1), expected->Range(ray, -1)) << round << " " << i;
+    }
+  }
+}
+
+TEST(RaySceneCache, MakesNoDraftIfSolidsMoveWithJoints) {
+  Random random(22);
+  RaySceneCache cache;
+  EXPECT_EQ(cache.Begin(RandomWorld(random)->layout), nullptr);
+}
+
 // The result must not depend on the arrangement of boxes. A grid is not suited for stacked or
 // distant boxes.
 TEST(RayScene, EqualsABruteForceSearchInTowersAndFarAway) {

@@ -243,7 +243,7 @@ bool SphereGrid::Divide(std::span<const BoundingSphere> spheres) {
 }
 
 void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const Bounds> boxes) {
-  GSV_CHECK(spheres.size() == boxes.size());
+  GSV_CHECK(boxes.empty() || spheres.size() == boxes.size());
   large_.clear();
   count_ = 0;
   is_suitable_ = true;
@@ -261,7 +261,7 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
     cell_of_[i] = kNoCell;
     // If there are only a few spheres, no sphere is listed separately: they share one cell.
     if (sphere.radius > too_large && spheres.size() > kMaxLarge) {
-      large_.push_back({boxes[i], i});
+      large_.push_back({boxes.empty() ? BoundsOf(sphere) : boxes[i], i});
       continue;
     }
     max_radius_ = std::max(max_radius_, sphere.radius);

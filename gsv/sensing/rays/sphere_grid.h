@@ -67,7 +67,8 @@ class PacketSearch {
 // Finds the spheres that the rays of a packet may touch.
 class SphereGrid {
  public:
-  // Replaces all spheres. Sphere i bounds the same solid as boxes[i].
+  // Replaces all spheres. Sphere i bounds the same solid as boxes[i]. If `boxes` is empty, the
+  // bounding boxes of the spheres are used.
   void Build(std::span<const BoundingSphere> spheres, std::span<const geometry::Bounds> boxes);
 
   // Appends the spheres that at least one ray may touch. Returns false, and may omit spheres, if

@@ -16,8 +16,8 @@ namespace {
 // Each thread repeatedly takes a piece of work (some turns) and executes it, which takes some
 // microseconds. A piece has kMinTurnsAPiece to kMaxTurnsAPiece turns. If there are few agents, the
 // pieces are small enough that each thread gets kPiecesOfAThread of them. So all threads end at
-// about the same time.
-constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 8;
+// about the same time. With smaller pieces, threads lock the simulation's mutex more often.
+constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 5;
 
 // The maximum number of steps that are taken at once. A request of a client, such as Pause(), waits
 // for their end.
@@ -202,8 +202,7 @@ void StepLoop::TakeTurns() {
     shared.history.MakeFrame(instant_.snapshots);
   }
   instant_.Prepare(*parts_.team);
-  usual_ends_.assign(turns_.size(), {});
-  outcomes_.assign(turns_.size(), TurnOutcome::kTaken);
+  results_.resize(turns_.size());  // TakePiece() sets all values
   // Each thread has its own sampling, so that threads do not write to the same reference counts.
   for (TurnThread& thread : turn_threads_) {
     thread.sampling.emplace(instant_.MakeSampling());
@@ -211,21 +210,29 @@ void StepLoop::TakeTurns() {
   }
   const std::size_t pieces = kPiecesOfAThread * turn_threads_.size();
   const std::size_t a_piece = std::clamp(turns_.size() / pieces, kMinTurnsAPiece, kMaxTurnsAPiece);
-  parts_.team->ParallelFor(turns_.size(), a_piece,
-                           [this](std::size_t begin, std::size_t end, std::size_t thread) {
-                             TakePiece(begin, end, turn_threads_[thread]);
-                           });
+  // Takes pieces of the turns, and applies the last piece of each thread.
+  struct {
+    void operator()(std::size_t begin, std::size_t end, std::size_t thread) const {
+      loop.TakePiece(begin, end, loop.turn_threads_[thread]);
+    }
+    void End(std::size_t thread) const {
+      TurnThread& of = loop.turn_threads_[thread];
+      if (of.begin < of.end) loop.ApplyAndWake(of.end, of.end, of);
+    }
+    StepLoop& loop;
+  } const take_turns{*this};
+  parts_.team->ParallelFor(turns_.size(), a_piece, take_turns);
   for (TurnThread& thread : turn_threads_) thread.sampling.reset();
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // all turns have ended, even too long ones
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     RobotAgent* const agent = turns_[i];
-    if (outcomes_[i] == TurnOutcome::kDied) FailIfRequired(*agent);
-    if (outcomes_[i] != TurnOutcome::kTaken) continue;
-    if (!usual_ends_[i].is_usual) usual_ends_[i] = agent->ApplyUsualTurn(shared.now);
-    if (usual_ends_[i].is_usual) {
-      Enlist(*agent, usual_ends_[i]);
+    const auto& [end, outcome] = results_[i];
+    if (outcome == TurnOutcome::kDied) FailIfRequired(*agent);
+    if (outcome != TurnOutcome::kTaken) continue;
+    if (end.is_usual) {
+      Enlist(*agent, end);
       continue;
     }
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
@@ -239,7 +246,11 @@ void StepLoop::TakeTurns() {
 }
 
 void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread) {
-  for (std::size_t i = begin; i < end; ++i) turns_[i]->Prefetch();
+  for (std::size_t i = begin; i < end; ++i) {
+    turns_[i]->Prefetch();
+    results_[i].end.is_usual = false;
+    results_[i].outcome = TurnOutcome::kTaken;
+  }
   ApplyAndWake(std::max(begin, std::min(awake_, end)), end, thread);
   const auto prefetch_behaviour = [&](std::size_t i) {
     if (i < end) turns_[i]->PrefetchBehaviour(*instant_.snapshots.latest());
@@ -253,15 +264,14 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread)
   for (std::size_t i = begin; i < end; ++i) {
     prefetch_behaviour(i + 4);
     prefetch_turn(i + 2);
-    if (outcomes_[i] == TurnOutcome::kTaken) turns_[i]->TakeTurn(instant_, *thread.sampling);
+    if (results_[i].outcome == TurnOutcome::kTaken) turns_[i]->TakeTurn(instant_, *thread.sampling);
   }
   thread.begin = begin, thread.end = end;
 }
 
 // Applies a thread's previous piece and wakes the agents of its next piece under one lock of the
 // mutex. Locking is slow, because usually another thread was the last one to lock the mutex. The
-// agents of the previous piece are still in the cache. The stepping thread applies the last piece
-// of each thread. Another thread keeps the mutex locked for at most about a microsecond. To sleep
+// agents of the previous piece are still in the cache. Another thread keeps the mutex locked for at most about a microsecond. To sleep
 // would take longer, so this thread first tries several times to lock the mutex.
 void StepLoop::ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread) {
   base::Mutex& mutex = parts_.shared->mutex;
@@ -277,14 +287,15 @@ void StepLoop::ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thre
   simulation_mutex.AssertHeld();  // `mutex` is the simulation's mutex
   const SimTime now = parts_.shared->now;
   for (std::size_t i = thread.begin; i < thread.end; ++i) {
-    if (outcomes_[i] == TurnOutcome::kTaken) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+    if (results_[i].outcome == TurnOutcome::kTaken)
+      results_[i].end = turns_[i]->ApplyUsualTurn(now);
   }
   const WallTime wall_now = WallNow();
   for (std::size_t i = begin; i < end; ++i) {
     const RobotAgent::Woken woken = turns_[i]->WakeForTurn(now, wall_now);
-    outcomes_[i] = woken.has_died     ? TurnOutcome::kDied
-                   : woken.has_passed ? TurnOutcome::kTaken
-                                      : TurnOutcome::kNone;
+    results_[i].outcome = woken.has_died     ? TurnOutcome::kDied
+                          : woken.has_passed ? TurnOutcome::kTaken
+                                             : TurnOutcome::kNone;
   }
   mutex.unlock();
 }
@@ -397,7 +408,11 @@ void StepLoop::TakeStep() {
     }
     if (is_timed_) timer_.Mark(&StepTimes::devices);
     snapshot = snapshots_.Take();
-    const int steps = world.Step(length, max_steps, *snapshot);
+    const std::shared_ptr<const world::Layout>& layout = world.layout();
+    std::unique_ptr<sensing::SceneDraft> scene =
+        drafts_scene_ ? shared.rays.Begin(layout) : nullptr;
+    const int steps = world.Step(length, max_steps, *snapshot, scene.get());
+    if (steps > 1 && scene != nullptr) shared.rays.Add(snapshot, std::move(scene));
     snapshot->transmissions = std::move(transmissions);
     EndStep(snapshot, start, steps);
     if (is_timed_) timer_.Mark(&StepTimes::bodies);
@@ -427,7 +442,14 @@ int StepLoop::BeginStep(WallTime start) {
   if (shared.mode == Mode::kRealTime) parts_.life_cycle.pace().StepStarts(start);
   const int max_steps = MaxSteps();
   shared.takes_many = max_steps > 1;
+  drafts_scene_ = max_steps > 1 && WillCastRays(max_steps);
   return max_steps;
+}
+
+bool StepLoop::WillCastRays(int steps) const {
+  const SharedState& shared = *parts_.shared;
+  const SimTime end = shared.now + steps * parts_.specification.step;
+  return instant_.casts_rays.load(std::memory_order_relaxed) && shared.turn_sleepers.HasDue(end);
 }
 
 // Several steps at once end at the first step at which an agent wakes, a fault is due, a sensor or

@@ -76,8 +76,9 @@ class StepLoop {
   // Any thread may call the next three functions, for different ranges of turns_.
   // Executes the turns from `begin` to `end`.
   void TakePiece(std::size_t begin, std::size_t end, TurnThread& thread);
-  // Applies the executed turns of `thread` that ended in a wait for a later instant, and sets their
-  // usual_ends_. Then wakes the agents from `begin` to `end` of turns_, and sets their outcomes_.
+  // Applies the executed turns of `thread` that ended in a wait for a later instant, and sets the
+  // ends in results_. Then wakes the agents from `begin` to `end` of turns_, and sets the outcomes
+  // in results_.
   void ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
@@ -100,6 +101,8 @@ class StepLoop {
   int BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
   // Returns how many steps may be taken at once: nobody needs the states between these steps.
   int MaxSteps() const GSV_REQUIRES(world_mutex, simulation_mutex);
+  // Returns whether the turns after `steps` steps will probably cast rays.
+  bool WillCastRays(int steps) const GSV_REQUIRES(world_mutex, simulation_mutex);
   // Applies the agents' commands to the world.
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
   // Ends a step: publishes its snapshot and its times.
@@ -120,14 +123,21 @@ class StepLoop {
   std::size_t awake_ = 0;
   // kNone: the agent was not woken, so it has no turn.
   enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };
-  std::vector<TurnOutcome> outcomes_;
-  std::vector<RobotAgent::UsualEnd> usual_ends_;  // the ends of the applied turns
-  std::vector<TurnThread> turn_threads_;          // one for each thread of the team
+  // The result of a turn. Equal parts of turns_ have equal parts of results_, so each thread mostly
+  // writes to its own cache lines.
+  struct TurnResult {
+    RobotAgent::UsualEnd end;  // how the turn ended, if it was applied
+    TurnOutcome outcome;
+  };
+  std::vector<TurnResult> results_;       // one for each element of turns_
+  std::vector<TurnThread> turn_threads_;  // one for each thread of the team
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events and channels of the agents that were just woken
   std::uint32_t mark_ = 0;       // StepSignal::mark() at the last TakeCycles()
   // whether the last TakeCycles() may have missed a client's ring
   bool may_have_missed_a_ring_ = false;
+  // Whether the ray scene is prepared while the bodies move. Set by BeginStep().
+  bool drafts_scene_ = false;
   bool is_timed_ = false;  // whether an observer requests the times of steps
   StepTimer timer_;
 

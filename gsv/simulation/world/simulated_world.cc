@@ -30,12 +30,13 @@ std::span<T> Part(std::vector<T>& of, std::size_t begin, std::size_t end) {
 class StepFinisher final : public dynamics::MotionFollower {
  public:
   StepFinisher(double step_seconds, const world::Layout& layout, world::WheelOdometry& odometry,
-               world::State& state, world::Snapshot& snapshot)
+               world::State& state, world::Snapshot& snapshot, sensing::SceneDraft* scene)
       : step_seconds_(step_seconds),
         layout_(layout),
         odometry_(odometry),
         state_(state),
-        snapshot_(snapshot) {}
+        snapshot_(snapshot),
+        scene_(scene) {}
 
   void OnMoved(int body, int steps, int steps_left, bool may_touch) override {
     odometry_.AdvanceBody(step_seconds_, body, steps, state_);
@@ -43,14 +44,14 @@ class StepFinisher final : public dynamics::MotionFollower {
     // If `steps` is above 1, the velocity was constant, so the present velocities are kept.
     if (steps_left == 1 || (steps_left == 0 && steps > 1)) KeepVelocities(body);
     if (steps_left == 0 && may_touch) {
-      may_touch_.push_back(body);  // FinishContacts() needs its velocities from before the step
+      may_touch_.push_back(body);  // OnContacts() needs its velocities from before the step
     } else if (steps_left == 0) {
       Finish(body);
     }
   }
 
-  // Completes the bodies that OnMoved() has not completed.
-  void FinishAll() {
+  // Completes the bodies that OnMoved() does not complete.
+  void OnContacts() override {
     for (std::size_t i = 0; i < layout_.bodies.size(); ++i) {
       if (layout_.bodies[i].is_planar()) continue;
       KeepVelocities(static_cast<int>(i));
@@ -75,6 +76,7 @@ class StepFinisher final : public dynamics::MotionFollower {
     world::FinishBodyAccelerations(Part(state_.bodies, i, i + 1), step_seconds_,
                                    Part(snapshot_.accelerations, i, i + 1));
     snapshot_.state.bodies[i] = state_.bodies[i];
+    if (scene_ != nullptr) scene_->Place(body, state_.bodies[i].world_from_model);
   }
 
   const double step_seconds_;
@@ -82,7 +84,8 @@ class StepFinisher final : public dynamics::MotionFollower {
   world::WheelOdometry& odometry_;
   world::State& state_;
   world::Snapshot& snapshot_;
-  std::vector<int> may_touch_;  // moved bodies that FinishAll() must complete
+  sensing::SceneDraft* const scene_;  // null if no ray scene is made
+  std::vector<int> may_touch_;        // bodies that OnContacts() must complete
 };
 
 }  // namespace
@@ -110,28 +113,29 @@ void SimulatedWorld::Reset() {
   FollowAttachments();
 }
 
-bool SimulatedWorld::StepMany(base::SimTime step, int steps, world::Snapshot& snapshot) {
+bool SimulatedWorld::StepMany(base::SimTime step, int steps, world::Snapshot& snapshot,
+                              sensing::SceneDraft* scene) {
   if (state_.devices != nullptr) return false;
   const double step_seconds = base::ToSeconds(step);
   snapshot.accelerations.resize(state_.bodies.size());
   snapshot.joint_accelerations.resize(state_.joint_velocities.size());
   snapshot.state.bodies.resize(state_.bodies.size());
   wheel_odometry_.KeepWheels(state_);
-  StepFinisher finisher(step_seconds, *layout_, wheel_odometry_, state_, snapshot);
+  StepFinisher finisher(step_seconds, *layout_, wheel_odometry_, state_, snapshot, scene);
   if (!engine_->StepMany(step, steps, state_, snapshot.contacts, finisher)) return false;
   state_.step += steps;
   state_.time = state_.step * step;
-  finisher.FinishAll();
   world::FinishJointAccelerations(state_.joint_velocities, step_seconds,
                                   snapshot.joint_accelerations);
   CopyAllButBodies(snapshot.state);
   return true;
 }
 
-int SimulatedWorld::Step(base::SimTime step, int max_steps, world::Snapshot& snapshot) {
+int SimulatedWorld::Step(base::SimTime step, int max_steps, world::Snapshot& snapshot,
+                         sensing::SceneDraft* scene) {
   snapshot.step_length = step;
   snapshot.layout = layout_;
-  if (max_steps > 1 && StepMany(step, max_steps, snapshot)) return max_steps;
+  if (max_steps > 1 && StepMany(step, max_steps, snapshot, scene)) return max_steps;
   snapshot.joint_accelerations = state_.joint_velocities;
   snapshot.accelerations.resize(state_.bodies.size());
   team_->ParallelFor(state_.bodies.size(), kVelocitiesAtOnce,

@@ -8,6 +8,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/engine.h"
+#include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/simulation/world/attachments.h"
 #include "gsv/simulation/world/world_lock.h"
 #include "gsv/world/wheel_odometry.h"
@@ -55,15 +56,18 @@ class SimulatedWorld {
     attachments_.Follow(*layout_, state_, *engine_);
   }
   // Moves the world by one step, or by `max_steps` steps at once if the engine can do this. Writes
-  // the new state to `snapshot`, whose memory is reused. Returns the number of steps.
-  int Step(base::SimTime step, int max_steps, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+  // the new state to `snapshot`, whose memory is reused. Returns the number of steps. If this is
+  // above 1, all bodies are also placed in `scene`, unless it is null.
+  int Step(base::SimTime step, int max_steps, world::Snapshot& snapshot, sensing::SceneDraft* scene)
+      GSV_REQUIRES(world_mutex);
   world::Snapshot InitialSnapshot() const GSV_REQUIRES(world_mutex) {
     return {layout_, state_, {}, {}, {}};
   }
 
  private:
   // Moves the world by several steps at once. Returns false if the engine cannot do this.
-  bool StepMany(base::SimTime step, int steps, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+  bool StepMany(base::SimTime step, int steps, world::Snapshot& snapshot,
+                sensing::SceneDraft* scene) GSV_REQUIRES(world_mutex);
   // Copies everything except the bodies.
   void CopyAllButBodies(world::State& to) GSV_REQUIRES(world_mutex);
   // Completes the step that the engine has computed, and copies the state to `snapshot`.
