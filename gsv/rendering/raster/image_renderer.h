@@ -92,8 +92,6 @@ class ImageRenderer {
   void Blend(const CameraView& view, const RenderList& render_list, const SunShadow* shadow);
   // Returns the antialiased image.
   model::Image Smooth() const;
-  // Returns the directions of eight pixels from (x, y) to the right.
-  F8x3 RayAt(int x, int y) const;
 
   // The index of pixel (x, y).
   std::size_t At(int x, int y) const {

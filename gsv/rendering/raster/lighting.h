@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "gsv/rendering/raster/mixed_pixels.h"
 #include "gsv/rendering/raster/sun_shadow.h"
-#include "gsv/rendering/raster/surface.h"
 #include "gsv/rendering/scene/frame_block.h"
 
 namespace gsv::rendering::raster {
@@ -104,27 +104,9 @@ class LightModel {
   Three<F> Colour(const Reflector<F>& reflector, const Gloss<F>& gloss, const Facing<F>& facing,
                   const Three<F>& face_normal, F w, const Three<F>& ray, const Lamps<F>& lamps,
                   Mask used) const {
-    const Three<F> to_view = Normalized(ray * Splat<F>(-1));
-    const F normal_to_view = Dot(facing.normal, to_view);
-    const Point point{reflector,
-                      gloss,
-                      facing,
-                      ray * w,
-                      to_view,
-                      normal_to_view,
-                      Min(Max(normal_to_view, Splat<F>(1e-3f)), Splat<F>(1))};
-    Three<F> light = reflector.emissive + Ambient(point) * reflector.occlusion;
-    const F n_dot_l = Clamp01(facing.to_sun);
-    const Mask sunny = used & Less(Splat<F>(0), n_dot_l);
-    if (Bits(sunny) != 0) {
-      const F visible =
-          shadow_ == nullptr ? Splat<F>(1) : SunAt(face_normal, point.position, n_dot_l, sunny);
-      if (Bits(used & Less(Splat<F>(0), n_dot_l * visible)) != 0) {
-        light = light + Reflected(point, to_sun_, facing.to_sun, n_dot_l) * (sun_colour_ * visible);
-      }
-    }
-    for (int i = 0; i < lamps.count; ++i) AddLamp(*lamps.lamps[i], point, light);
-    return ToneMapped(light);
+    return reflector.is_grey
+               ? ColourOf<true>(reflector, gloss, facing, face_normal, w, ray, lamps, used)
+               : ColourOf<false>(reflector, gloss, facing, face_normal, w, ray, lamps, used);
   }
 
   // Returns the colour of the sky in these directions.
@@ -173,7 +155,38 @@ class LightModel {
     return Select(bright, Mixed(scaled, {new_peak, new_peak, new_peak}, white), colour);
   }
 
+  // See Colour(). kGrey is Reflector::is_grey.
+  template <bool kGrey>
+  __attribute__((noinline)) Three<F> ColourOf(const Reflector<F>& reflector, const Gloss<F>& gloss,
+                                              const Facing<F>& facing, const Three<F>& face_normal,
+                                              F w, const Three<F>& ray, const Lamps<F>& lamps,
+                                              Mask used) const {
+    const Three<F> to_view = Normalized(ray * Splat<F>(-1));
+    const F normal_to_view = Dot(facing.normal, to_view);
+    const Point point{reflector,
+                      gloss,
+                      facing,
+                      ray * w,
+                      to_view,
+                      normal_to_view,
+                      Min(Max(normal_to_view, Splat<F>(1e-3f)), Splat<F>(1))};
+    Three<F> light = reflector.emissive + Ambient<kGrey>(point) * reflector.occlusion;
+    const F n_dot_l = Clamp01(facing.to_sun);
+    const Mask sunny = used & Less(Splat<F>(0), n_dot_l);
+    if (Bits(sunny) != 0) {
+      const F visible =
+          shadow_ == nullptr ? Splat<F>(1) : SunAt(face_normal, point.position, n_dot_l, sunny);
+      if (Bits(used & Less(Splat<F>(0), n_dot_l * visible)) != 0) {
+        light = light +
+                Reflected<kGrey>(point, to_sun_, facing.to_sun, n_dot_l) * (sun_colour_ * visible);
+      }
+    }
+    for (int i = 0; i < lamps.count; ++i) AddLamp<kGrey>(*lamps.lamps[i], point, light);
+    return ToneMapped(light);
+  }
+
   // Returns the light of the surroundings that the points reflect towards the camera.
+  template <bool kGrey>
   Three<F> Ambient(const Point& p) const {
     const Gloss<F>& gloss = p.gloss;
     const F mirrored_z = Fma(Splat<F>(2) * p.normal_to_view, p.facing.normal.z, -p.to_view.z);
@@ -187,9 +200,12 @@ class LightModel {
     const F scale = Fma(a, Splat<F>(-1.04f), gloss.scale);
     const F bias = Fma(a, Splat<F>(1.04f), gloss.bias);
     const Three<F>&diffuse = p.reflector.diffuse, &specular = p.reflector.specular;
-    return {Fma(around.x, diffuse.x, mirrored.x * Fma(specular.x, scale, bias)),
-            Fma(around.y, diffuse.y, mirrored.y * Fma(specular.y, scale, bias)),
-            Fma(around.z, diffuse.z, mirrored.z * Fma(specular.z, scale, bias))};
+    const F share_x = Fma(specular.x, scale, bias);
+    const F share_y = kGrey ? share_x : Fma(specular.y, scale, bias);
+    const F share_z = kGrey ? share_x : Fma(specular.z, scale, bias);
+    return {Fma(around.x, diffuse.x, mirrored.x * share_x),
+            Fma(around.y, diffuse.y, mirrored.y * share_y),
+            Fma(around.z, diffuse.z, mirrored.z * share_z)};
   }
 
   // Returns the fraction of sunlight that reaches the points.
@@ -207,6 +223,7 @@ class LightModel {
   // Returns the light that the points reflect towards the camera, for a source of strength 1 in the
   // direction `to_light`. `normal_to_light` is the cosine of the angle between the normal and that
   // direction, and `n_dot_l` is the same limited to [0, 1].
+  template <bool kGrey>
   static Three<F> Reflected(const Point& p, const Three<F>& to_light, F normal_to_light,
                             F n_dot_l) {
     // The half vector h of light and view need not have unit length. For the sum l + v, |l + v|² is
@@ -222,16 +239,23 @@ class LightModel {
                     Splat<F>(1e-4f));
     const F gloss = Min(p.gloss.half_alpha2 * length2 * length2 / Max(d * d * v, Splat<F>(1e-12f)),
                         Splat<F>(8));
-    const auto channel = [&](F diffuse, F specular) {
+    struct Shares {
+      F diffuse, mirrored;
+    };
+    const auto shares = [&](F specular) -> Shares {
       const F fresnel = Fma(Splat<F>(1) - specular, m5, specular);
-      return Fma(diffuse, Splat<F>(1) - fresnel, fresnel * gloss) * n_dot_l;
+      return {Splat<F>(1) - fresnel, fresnel * gloss};
     };
     const Three<F>&diffuse = p.reflector.diffuse, &specular = p.reflector.specular;
-    return {channel(diffuse.x, specular.x), channel(diffuse.y, specular.y),
-            channel(diffuse.z, specular.z)};
+    const Shares x = shares(specular.x), y = kGrey ? x : shares(specular.y),
+                 z = kGrey ? x : shares(specular.z);
+    return {Fma(diffuse.x, x.diffuse, x.mirrored) * n_dot_l,
+            Fma(diffuse.y, y.diffuse, y.mirrored) * n_dot_l,
+            Fma(diffuse.z, z.diffuse, z.mirrored) * n_dot_l};
   }
 
   // Adds the light of a lamp that the points reflect towards the camera.
+  template <bool kGrey>
   static void AddLamp(const Lamp<F>& lamp, const Point& p, Three<F>& light) {
     Three<F> to_light = lamp.axis * Splat<F>(-1);
     F strength = Splat<F>(1);
@@ -260,7 +284,7 @@ class LightModel {
     const Mask lit = AnyOfEight(Less(Splat<F>(1e-3f), n_dot_l * strength));
     if (Bits(lit) == 0) return;
     const Three<F> sum =
-        light + Reflected(p, to_light, normal_to_light, n_dot_l) * (lamp.colour * strength);
+        light + Reflected<kGrey>(p, to_light, normal_to_light, n_dot_l) * (lamp.colour * strength);
     light = Lanes<F>::kCount == 8 ? sum : Select(lit, sum, light);
   }
 

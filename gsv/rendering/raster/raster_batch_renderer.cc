@@ -98,7 +98,8 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraVie
                             [&](const auto& renderer) { return renderer->IsOf(view); });
   if (found == idle_.end()) {
     if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>(make_loops_);
-    found = idle_.begin();  // the renderer that was used least recently
+    // The renderer that was used last, because its memory is in the cache.
+    found = std::prev(idle_.end());
   }
   auto renderer = std::move(*found);
   idle_.erase(found);

@@ -119,11 +119,8 @@ Level Append(const Piece& piece, float cell, RasterMesh& mesh) {
     mesh.x.push_back(vertex.position[0]);
     mesh.y.push_back(vertex.position[1]);
     mesh.z.push_back(vertex.position[2]);
-    mesh.normal_x.push_back(vertex.normal[0]);
-    mesh.normal_y.push_back(vertex.normal[1]);
-    mesh.normal_z.push_back(vertex.normal[2]);
-    mesh.u.push_back(vertex.uv[0]);
-    mesh.v.push_back(vertex.uv[1]);
+    const auto& [normal, uv] = std::tie(vertex.normal, vertex.uv);
+    mesh.attributes.push_back({{1, uv[0], uv[1], normal[0], normal[1], normal[2], 0, 0}});
     mesh.surface.push_back(vertex.surface);
   }
   for (std::size_t i = 0; i < level.triangle_count; ++i) {

@@ -18,8 +18,13 @@ struct Level {
 
 // A triangle mesh with all its levels of detail.
 struct RasterMesh final : DrawMesh {
+  // The attributes of a vertex in the order of TriangleSurface: 1, u, v, and the normal.
+  struct Attributes {
+    float values[8];
+  };
   // Properties of vertices, one element for each.
-  std::vector<float> x, y, z, normal_x, normal_y, normal_z, u, v;
+  std::vector<float> x, y, z;
+  std::vector<Attributes> attributes;
   std::vector<std::uint16_t> surface;
   // Properties of triangles, one element for each. Corners are counted from the first vertex of the
   // level.

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> Packed(const model::Image& image) {
 RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
                                 std::vector<std::uint32_t>& texels) {
   RasterTexture::Level half{std::max(1, from.width / 2), std::max(1, from.height / 2),
-                            texels.size()};
+                            static_cast<std::int32_t>(texels.size())};
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
       std::uint32_t mean = 0;
@@ -31,8 +31,8 @@ RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
         for (int k = 0; k < 4; ++k) {
           const int from_x = std::min(2 * x + k % 2, from.width - 1);
           const int from_y = std::min(2 * y + k / 2, from.height - 1);
-          const std::size_t at =
-              from.first + static_cast<std::size_t>(from_y) * from.width + from_x;
+          const std::size_t at = static_cast<std::size_t>(from.first) +
+                                 static_cast<std::size_t>(from_y) * from.width + from_x;
           sum += texels[at] >> shift & 0xff;
         }
         mean |= sum / 4 << shift;

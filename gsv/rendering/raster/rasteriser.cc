@@ -1,5 +1,7 @@
 #include "gsv/rendering/raster/rasteriser.h"
 
+#include <algorithm>
+
 namespace gsv::rendering::raster {
 
 using geometry::Vector3;
@@ -23,11 +25,12 @@ Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& le
   const Vector3 cofactors[3] = {handedness * geometry::Cross(rows[1], rows[2]),
                                 handedness * geometry::Cross(rows[2], rows[0]),
                                 handedness * geometry::Cross(rows[0], rows[1])};
+  for (auto& column : drawn.normal) std::fill_n(column, 8, 0.0f);
   for (int i = 0; i < 3; ++i) {
     const double row[4] = {rows[i].x, rows[i].y, rows[i].z, offset[i]};
     const double normal[3] = {cofactors[i].x, cofactors[i].y, cofactors[i].z};
     for (int k = 0; k < 4; ++k) drawn.rows[i][k] = static_cast<float>(row[k]);
-    for (int k = 0; k < 3; ++k) drawn.normal[i][k] = static_cast<float>(normal[k]);
+    for (int k = 0; k < 3; ++k) drawn.normal[k][3 + i] = static_cast<float>(normal[k]);
   }
   return drawn;
 }

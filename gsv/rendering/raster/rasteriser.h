@@ -25,7 +25,9 @@ struct Drawn {
   const DrawGroup* group = nullptr;
   const SurfaceFactors* factors = nullptr;  // colours and roughness of the item's material
   float rows[3][4];                         // relative_from_mesh
-  float normal[3][3];  // transforms the mesh's normals, which then do not have unit length
+  // The columns of the matrix that transforms the mesh's normals, which then do not have unit length.
+  // Elements 3 to 5 of each are the column, and the others are 0.
+  float normal[3][8];
 };
 
 // Returns an item of a render list at this level of detail. `origin` is the camera's position.

@@ -238,6 +238,48 @@ TEST(RasterBatchRenderer, DrawsEqualImagesWithEightAndWithSixteenLanes) {
   }
 }
 
+// The wall on the left ends in the middle of a vector of pixels. Its normal map and its second side
+// must not change the wall on the right.
+TEST(RasterBatchRenderer, SurfacesDoNotChangeTheirNeighboursInAVector) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(geometry::Vector3{0.6, 0.3, -0.7});
+  sun.cast_shadows = false;
+  auto bumps = std::make_shared<model::Image>();
+  bumps->width = bumps->height = 16;
+  for (int i = 0; i < 16 * 16; ++i) {
+    const auto x = static_cast<std::uint8_t>(128 + 15 * (i % 7)),
+               y = static_cast<std::uint8_t>(128 - 15 * (i % 5));
+    bumps->pixels.insert(bumps->pixels.end(), {x, y, 200});
+  }
+  model::Material left = Matt(0.2, 0.6, 0.3);
+  left.normal_map = bumps;
+  left.double_sided = true;
+  const auto drawn = [&](bool with_left) {
+    TestScene scene;
+    scene.description().lights = {sun};
+    if (with_left) scene.Add("left", geometry::Box{{0.1, 2, 2}}, {{3, 1, 0}, {}}, left);
+    scene.Add("right", geometry::Box{{0.1, 2, 2}}, {{3, -1, 0}, {}}, Matt(0.9, 0.8, 0.7));
+    raster::RasterBatchRenderer renderer(1);
+    const auto images = renderer.Draw(*scene.Snapshot(), {{{}, {203, 90, 1.1, 0.05, 60}}});
+    EXPECT_TRUE(images);
+    return images->at(0)->pixels;
+  };
+  const auto both = drawn(true), alone = drawn(false);
+  EXPECT_NE(both, alone);
+  int compared = 0;
+  for (std::size_t y = 0; y < 90; ++y) {
+    // The walls meet at column 101. Antialiasing changes its neighbours.
+    for (std::size_t x = 103; x < 203; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = 3 * (203 * y + x) + c;
+        ASSERT_EQ(both[at], alone[at]) << "column " << x << ", row " << y;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_EQ(compared, 90 * 100 * 3);
+}
+
 // Several threads draw the shadow map in bands of rows. The shadows of posts and balls cross the
 // borders between bands.
 TEST(RasterBatchRenderer, DrawsEqualShadowsByOneAndBySeveralThreads) {

@@ -41,14 +41,26 @@ template <class F>
 struct Reflector {
   Reflector() = default;
   Reflector(const Three<F>& base, F metalness, const Three<F>& emitted, F ambient)
-      : diffuse(base * (Splat<F>(1) - metalness)),
-        specular(Mixed(Splat<F>(0.04f, 0.04f, 0.04f), base, metalness)),
+      : Reflector(base, metalness, emitted, ambient,
+                  Bits(EqualInt((typename Lanes<F>::Ints)metalness, SplatInt<F>(0))) ==
+                      (1 << Lanes<F>::kCount) - 1) {}
+  // `has_no_metal` says that `metalness` is 0 in all lanes.
+  Reflector(const Three<F>& base, F metalness, const Three<F>& emitted, F ambient,
+            bool has_no_metal)
+      : diffuse(base),
+        specular(Splat<F>(0.04f, 0.04f, 0.04f)),
         emissive(emitted),
-        occlusion(ambient) {}
+        occlusion(ambient),
+        is_grey(has_no_metal) {
+    if (has_no_metal) return;
+    diffuse = base * (Splat<F>(1) - metalness);
+    specular = Mixed(specular, base, metalness);
+  }
 
   Three<F> diffuse, specular;  // `specular` is the reflectance at normal incidence
   Three<F> emissive;           // emitted light
   F occlusion;                 // the fraction of ambient light that reaches the surface
+  bool is_grey = false;  // whether `specular` has the same value in all channels, in all lanes
 };
 
 }  // namespace gsv::rendering::raster

@@ -32,7 +32,7 @@ inline void Narrow(const Triangle& t, const F8 (&rows)[3], F8& left, F8& right) 
 // triangle covers some. These pixels may be up to seven pixels beyond the box, so rows need padding.
 // For longer vectors, the other lanes beyond the box are not covered.
 template <class F, class Block>
-void Scan(const Triangle& t, const Box& box, Block&& block) {
+__attribute__((always_inline)) inline void Scan(const Triangle& t, const Box& box, Block&& block) {
   // Adjacent triangles overlap by this many pixels, so that rounding leaves no gap between them.
   constexpr float kOverlap = 1e-3f;
   constexpr int kWide = 16, kLanes = Lanes<F>::kCount;

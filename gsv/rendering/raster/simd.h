@@ -88,6 +88,13 @@ inline F8 Gather(const float* from, I8 index) {
 inline I8 GatherInt(const void* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
+// Returns byte K of each element; byte 0 is the lowest.
+template <int K>
+I8 Byte(I8 a) {
+  const __m128i order = _mm_setr_epi8(K, -1, -1, -1, K + 4, -1, -1, -1, K + 8, -1, -1, -1, K + 12,
+                                      -1, -1, -1);  // -1 gives 0
+  return (I8)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(order));
+}
 struct I8x2 {
   I8 first, second;
 };
@@ -131,11 +138,29 @@ inline I8 IntSteps<F8>() {
 }
 inline F8 Steps() { return Steps<F8>(); }
 inline I8 IntSteps() { return IntSteps<F8>(); }
+// Returns the mask of which Bits() returns `bits`.
+template <class F>
+typename Lanes<F>::Mask MaskOf(int bits);
+template <>
+inline I8 MaskOf<F8>(int bits) {
+  const I8 of_lane{1, 2, 4, 8, 16, 32, 64, 128};
+  return (SplatInt(bits) & of_lane) == of_lane;
+}
 // Returns a mask in which all lanes are set if a lane of `mask` is set.
 inline I8 AnyOfEight(I8 mask) { return SplatInt(Bits(mask) != 0 ? -1 : 0); }
-// Returns a vector with a value for each group of eight lanes.
-inline F8 ByGroup(const float (&values)[1]) { return Splat(values[0]); }
-inline I8 ByGroup(const int (&values)[1]) { return SplatInt(values[0]); }
+// Returns a vector in which all lanes of the n-th group of eight lanes have the value of lane n.
+template <class F>
+F ByGroup(F8 values);
+template <class F>
+typename Lanes<F>::Ints ByGroup(I8 values);
+template <>
+inline F8 ByGroup<F8>(F8 values) {
+  return _mm256_broadcastss_ps(_mm256_castps256_ps128(values));
+}
+template <>
+inline I8 ByGroup<F8>(I8 values) {
+  return (I8)_mm256_broadcastd_epi32(_mm256_castsi256_si128((__m256i)values));
+}
 // Stores the lanes of `mask` and leaves the others, which are `old`.
 inline void StoreMasked(I8 mask, float* to, F8 value, F8 old) {
   Store(to, Select(mask, value, old));
@@ -144,6 +169,13 @@ inline void StoreMaskedInt(I8 mask, void* to, I8 value) {
   StoreInt(to, SelectInt(mask, value, LoadInt(to)));
 }
 inline I8 FirstEight(I8 mask) { return mask; }
+// Returns the highest and the lowest lane.
+inline float MaxOf(F8 a) {
+  F4 b = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+  b = _mm_max_ps(b, _mm_movehl_ps(b, b));
+  return _mm_max_ps(b, _mm_movehdup_ps(b))[0];
+}
+inline float MinOf(F8 a) { return -MaxOf(-a); }
 // Returns 2^n.
 inline F8 PowerOfTwo(I8 n) { return (F8)_mm256_slli_epi32((__m256i)(n + 127), 23); }
 
@@ -209,8 +241,18 @@ inline Mask16 AtLeast(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_O
 inline Mask16 LessInt(I16 a, I16 b) { return {_mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b)}; }
 inline Mask16 EqualInt(I16 a, I16 b) { return {_mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b)}; }
 inline int Bits(Mask16 mask) { return mask.bits; }
+template <>
+inline Mask16 MaskOf<F16>(int bits) {
+  return {static_cast<__mmask16>(bits)};
+}
 inline I16 GatherInt(const void* from, I16 index) {
   return (I16)_mm512_i32gather_epi32((__m512i)index, from, 4);
+}
+template <int K>
+I16 Byte(I16 a) {
+  const __m128i order =
+      _mm_setr_epi8(K, -1, -1, -1, K + 4, -1, -1, -1, K + 8, -1, -1, -1, K + 12, -1, -1, -1);
+  return (I16)_mm512_shuffle_epi8((__m512i)a, _mm512_broadcast_i32x4(order));
 }
 struct I16x2 {
   I16 first, second;
@@ -240,16 +282,19 @@ inline void StoreMaskedInt(Mask16 mask, void* to, I16 value) {
 }
 // Returns the mask with only its first eight lanes.
 inline Mask16 FirstEight(Mask16 mask) { return {static_cast<__mmask16>(mask.bits & 0xff)}; }
+inline float MaxOf(F16 a) { return _mm512_reduce_max_ps(a); }
+inline float MinOf(F16 a) { return _mm512_reduce_min_ps(a); }
 inline F16 PowerOfTwo(I16 n) {
   return (F16)_mm512_slli_epi32(_mm512_add_epi32((__m512i)n, _mm512_set1_epi32(127)), 23);
 }
-// Returns a vector with a value for each group of eight lanes.
-inline F16 ByGroup(const float (&values)[2]) {
-  return _mm512_mask_blend_ps(0xff00, _mm512_set1_ps(values[0]), _mm512_set1_ps(values[1]));
+template <>
+inline F16 ByGroup<F16>(F8 values) {
+  const __m512i group = _mm512_set_epi32(1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0);
+  return _mm512_permutexvar_ps(group, _mm512_castps256_ps512(values));
 }
-inline I16 ByGroup(const int (&values)[2]) {
-  return (I16)_mm512_mask_blend_epi32(0xff00, _mm512_set1_epi32(values[0]),
-                                      _mm512_set1_epi32(values[1]));
+template <>
+inline I16 ByGroup<F16>(I8 values) {
+  return (I16)ByGroup<F16>((F8)values);
 }
 
 #pragma GCC pop_options

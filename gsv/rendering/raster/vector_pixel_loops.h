@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gsv/rendering/raster/lighting.h"
+#include "gsv/rendering/raster/mixed_pixels.h"
 #include "gsv/rendering/raster/pixel_loops.h"
 #include "gsv/rendering/raster/scan.h"
 
@@ -65,30 +66,21 @@ class VectorPixelLoops final : public PixelLoops {
         min_lanes = Min(min_lanes, Select(seen, inverse_w, min_lanes));
       }
     }
-    float max_inverse_w = max_lanes[0], min_inverse_w = min_lanes[0];
-    for (int lane = 1; lane < kLanes; ++lane) {
-      max_inverse_w = std::max(max_inverse_w, max_lanes[lane]);
-      min_inverse_w = std::min(min_inverse_w, min_lanes[lane]);
-    }
+    const float max_inverse_w = MaxOf(max_lanes), min_inverse_w = MinOf(min_lanes);
     if (max_inverse_w == 0) return {x0, y0, x1, y1, true, {}, {}};
-    constexpr double kMax = 1e30;
-    TileToShade tile{x0, y0, x1, y1, false, {kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
-    geometry::Vector3 &min = tile.min, &max = tile.max;
-    for (const int x : {x0, x1}) {
-      for (const int y : {y0, y1}) {
-        for (const float inverse_w : {max_inverse_w, min_inverse_w}) {
-          const auto part = [&](std::size_t i) {
-            const double px = x - 0.5, py = y - 0.5;
-            return (image_.forward[i] + image_.right[i] * px + image_.down[i] * py) /
-                   static_cast<double>(inverse_w);
-          };
-          const geometry::Vector3 p{part(0), part(1), part(2)};
-          min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-          max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-        }
-      }
+    // The box around the eight corners of the view's part that the tile shows.
+    const double min_w = 1 / static_cast<double>(max_inverse_w);
+    const double max_w = 1 / static_cast<double>(min_inverse_w);
+    double min[3], max[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double ahead = image_.forward[i], right = image_.right[i], down = image_.down[i];
+      const auto [left_x, right_x] = std::minmax({right * (x0 - 0.5), right * (x1 - 0.5)});
+      const auto [upper_y, lower_y] = std::minmax({down * (y0 - 0.5), down * (y1 - 0.5)});
+      const double low = ahead + left_x + upper_y, high = ahead + right_x + lower_y;
+      min[i] = std::min(low * min_w, low * max_w);
+      max[i] = std::max(high * min_w, high * max_w);
     }
-    return tile;
+    return {x0, y0, x1, y1, false, {min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
   }
 
   void Shade(const TileToShade& tile) override {
@@ -117,8 +109,11 @@ class VectorPixelLoops final : public PixelLoops {
       if (seen == 0) return;
       MarkBlended(x, y), MarkBlended(std::min(x + kLanes, image_.width) - 1, y);
       const Three<F> ray = RayAt(x, y);
-      Surfaces<F> surfaces;
-      FillIn(*blended_, SeenPixels<F>(t, surface, x, y, seen), visible, true, ray, surfaces);
+      SeenPlanes<F> planes(x, y);
+      SeenItems<F> items;
+      planes.Set(MaskOf<F>(kAll), surface, HasTextures(*blended_->group), seen);
+      items.Set(MaskOf<F>(kAll), *blended_, t);
+      const Surfaces<F> surfaces = SurfacesOf(planes, items, ray);
       const Ints above =
           Encoded(values_, light_->Colour(surfaces, ray, blended_lamps_, visible), SplatInt<F>(0));
       std::uint32_t* to = image_.rgba + static_cast<std::size_t>(y) * image_.width + x;
@@ -135,12 +130,21 @@ class VectorPixelLoops final : public PixelLoops {
   }
 
  private:
-  // The surface of a triangle. If the material is even and the normal constant, `facing` is set.
-  struct Surface {
+  // The surface of a triangle. If the material is even and the normal constant, the last members are
+  // set.
+  struct alignas(64) Surface {
     TriangleSurface triangle;
+    const Triangle* of = nullptr;
+    const Drawn* drawn = nullptr;
+    bool has_textures = false;
     bool is_even = false;
-    std::int32_t material = 0;  // index in materials_, if the material is even
-    Facing<F> facing;
+    std::int32_t material = 0;           // index in materials_
+    float normal[3], around[3], to_sun;  // see Facing
+
+    Facing<F> facing() const {
+      return {Splat<F>(normal[0], normal[1], normal[2]), Splat<F>(around[0], around[1], around[2]),
+              Splat<F>(to_sun)};
+    }
   };
 
   // Returns the surface of triangle number `id`.
@@ -156,10 +160,18 @@ class VectorPixelLoops final : public PixelLoops {
     const Drawn& drawn = visible_.drawn[triangle.drawn];
     Surface& surface = surfaces_.emplace_back();
     surface.triangle = SurfaceOf(drawn, triangle);
+    surface.of = &triangle, surface.drawn = &drawn;
+    surface.has_textures = HasTextures(*drawn.group);
     if (!surface.triangle.is_flat || !IsEven(*drawn.group)) return surface;
     surface.is_even = true;
-    const auto& n = surface.triangle.normal;
-    surface.facing = light_->FacingOf(Normalized(Splat<F>(n[0].c, n[1].c, n[2].c)));
+    const float* normal = surface.triangle.c + TriangleSurface::kNormalX;
+    const Facing<F> facing =
+        light_->FacingOf(Normalized(Splat<F>(normal[0], normal[1], normal[2])));
+    const auto& [n, around, to_sun] = facing;
+    surface.normal[0] = n.x[0], surface.normal[1] = n.y[0], surface.normal[2] = n.z[0];
+    surface.around[0] = around.x[0], surface.around[1] = around.y[0];
+    surface.around[2] = around.z[0];
+    surface.to_sun = to_sun[0];
     std::int32_t& material = material_of_[triangle.drawn];
     if (material < 0) {
       material = static_cast<std::int32_t>(materials_.size());
@@ -186,8 +198,7 @@ class VectorPixelLoops final : public PixelLoops {
       const Mask sees_first = EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(first)));
       const Surface& surface = SurfaceFor(first);
       if (surface.is_even && (seen & ~Bits(sees_first)) == 0) {
-        const SeenPixels<F> pixels(visible_.triangles[first - 1], surface.triangle, x, y,
-                                   InGroups(Bits(sees_first), left));
+        const SeenPixels<F> pixels(surface.triangle, x, y, InGroups(Bits(sees_first), left));
         colour = EvenColour(surface, pixels, ray, lamps, used);
         number = SplatInt<F>(surface.triangle.number);
       } else {
@@ -212,14 +223,14 @@ class VectorPixelLoops final : public PixelLoops {
   Three<F> EvenColour(const Surface& surface, const SeenPixels<F>& pixels, const Three<F>& ray,
                       const Lamps<F>& lamps, Mask used) const {
     const EvenMaterial<F>& material = materials_[static_cast<std::size_t>(surface.material)];
-    const Facing<F>& facing = surface.facing;
+    const Facing<F> facing = surface.facing();
     if (material.texture == nullptr) {
       return light_->Colour(material.reflector, material.gloss, facing, facing.normal, pixels.w,
                             ray, lamps, used);
     }
     const Three<F> base = material.base * Decoded(pixels.Look(*material.texture));
     const Reflector<F> reflector(base, material.metalness, material.reflector.emissive,
-                                 material.reflector.occlusion);
+                                 material.reflector.occlusion, material.reflector.is_grey);
     return light_->Colour(reflector, material.gloss, facing, facing.normal, pixels.w, ray, lamps,
                           used);
   }
@@ -227,35 +238,46 @@ class VectorPixelLoops final : public PixelLoops {
   // Returns the colours of pixels that see any triangles, and sets the numbers of their surfaces.
   Three<F> MixedColour(const std::uint32_t* nearest, Ints ids, int seen, int x, int y,
                        const Three<F>& ray, const Lamps<F>& lamps, Mask used, Ints& number) {
-    Surfaces<F> surfaces;
+    SeenPlanes<F> planes(x, y);
+    SeenItems<F> items;
     bool is_first = true;
     for (int left = seen; left != 0;) {
       const std::uint32_t id = nearest[__builtin_ctz(static_cast<unsigned>(left))];
-      const Mask mask = EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(id)));
-      const Triangle& triangle = visible_.triangles[id - 1];
-      const SeenPixels<F> pixels(triangle, SurfaceFor(id).triangle, x, y,
-                                 InGroups(Bits(mask), image_.width - x));
-      FillIn(visible_.drawn[triangle.drawn], pixels, WithIdleLanes(mask, nearest, seen, id),
-             is_first, ray, surfaces);
+      const int lanes = Bits(EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(id))));
+      const Surface& surface = SurfaceFor(id);
+      // The first triangle fills all lanes, so that the other lanes have valid values.
+      const Mask mask = MaskOf<F>(is_first ? kAll : WithIdleLanes(lanes, nearest, seen, id));
+      planes.Set(mask, surface.triangle, surface.has_textures, InGroups(lanes, image_.width - x));
+      items.Set(mask, *surface.drawn, *surface.of);
       is_first = false;
-      left &= ~Bits(mask);
+      left &= ~lanes;
     }
+    const Surfaces<F> surfaces = SurfacesOf(planes, items, ray);
     number = surfaces.number;
     return light_->Colour(surfaces, ray, lamps, used);
   }
 
-  // Adds the lanes that see nothing to the mask of triangle number `id`, in those groups of eight
-  // lanes in which it is the first triangle. So a group has the same values as if it were shaded
+  // Returns the surfaces of pixels that see these triangles of these items.
+  __attribute__((always_inline)) static Surfaces<F> SurfacesOf(const SeenPlanes<F>& planes,
+                                                               const SeenItems<F>& items,
+                                                               const Three<F>& ray) {
+    Surfaces<F> surfaces;
+    TextureLanes<F> textures;
+    planes.Compute(surfaces, textures);
+    items.Compute(textures, ray, surfaces);
+    return surfaces;
+  }
+
+  // Adds the lanes that see nothing to the lanes that see triangle number `id`, in those groups of
+  // eight lanes in which it is the first triangle. So a group has the same values as if it were shaded
   // alone (see LightModel::AddLamp()).
-  static Mask WithIdleLanes(Mask mask, const std::uint32_t* nearest, int seen, std::uint32_t id) {
-    if constexpr (kLanes == 16) {
-      for (int first = 0; first < kLanes; first += 8) {
-        const auto lanes = static_cast<unsigned>(seen >> first & 0xff);
-        if (lanes == 0 || nearest[first + __builtin_ctz(lanes)] != id) continue;
-        mask.bits = static_cast<__mmask16>(mask.bits | (~lanes & 0xff) << first);
-      }
+  static int WithIdleLanes(int lanes, const std::uint32_t* nearest, int seen, std::uint32_t id) {
+    for (int first = 0; first < kLanes; first += 8) {
+      const auto in_group = static_cast<unsigned>(seen >> first & 0xff);
+      if (in_group == 0 || nearest[first + __builtin_ctz(in_group)] != id) continue;
+      lanes |= static_cast<int>((~in_group & 0xff) << first);
     }
-    return mask;
+    return lanes;
   }
 
   // Leaves out the lanes of those groups of eight that are beyond the end of the row, which has

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <memory>
 
 namespace gsv::rendering {
@@ -168,34 +169,50 @@ class Smoother {
   // Blends along an edge. At each end that has a step, the line begins half a pixel beside the
   // edge. In the middle, the line reaches the edge.
   void Blend(int line, int first, int end, int step_first, int step_end) {
-    if (step_first == 0 && step_end == 0) return;
     const float middle = 0.5f * static_cast<float>(end - first);
-    // The area between the line and the edge, up to `t` from an end with a step.
-    const auto area = [&](float t) {
-      t = std::min(t, middle);
-      return 0.5f * t * (1 - t / (2 * middle));
+    // Calls mix(k, share) for each pixel k, counted from an end with a step. `share` is the area
+    // between the line and the edge in this pixel.
+    const auto from_end = [&](auto&& mix) {
+      float before = 0;
+      for (int k = 0; static_cast<float>(k) < middle; ++k) {
+        const float t = std::min(static_cast<float>(k + 1), middle);
+        const float area = 0.5f * t * (1 - t / (2 * middle));
+        mix(k, area - before);
+        before = area;
+      }
     };
-    for (int i = first; i < end; ++i) {
-      const float from_first = static_cast<float>(i - first);
-      const float from_end = static_cast<float>(end - i - 1);
-      if (step_first != 0) Mix(line, i, step_first, area(from_first + 1) - area(from_first));
-      if (step_end != 0) Mix(line, i, step_end, area(from_end + 1) - area(from_end));
+    if (step_first != 0) {
+      from_end([&](int k, float share) { Mix(line, first + k, step_first, share); });
+    }
+    if (step_end != 0) {
+      from_end([&](int k, float share) { Mix(line, end - 1 - k, step_end, share); });
     }
   }
 
   // Mixes the fraction `share` of the colour on the other side of the edge into the pixel beside
   // the edge.
   void Mix(int line, int i, int step, float share) {
-    if (share <= 0) return;
     const std::size_t before =
         static_cast<std::size_t>(line) * line_stride_ + static_cast<std::size_t>(i) * stride_;
     const std::size_t after = before + line_stride_;
     const std::size_t target = step > 0 ? before : after, source = step > 0 ? after : before;
+    const auto colour = [](unsigned bytes) {
+      const __m128i zero = _mm_setzero_si128();
+      const __m128i words = _mm_unpacklo_epi8(_mm_cvtsi32_si128(static_cast<int>(bytes)), zero);
+      return _mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero));
+    };
     std::uint8_t* to = &image_.pixels[3 * target];
-    for (int c = 0; c < 3; ++c) {
-      const float old = to[c];
-      to[c] = static_cast<std::uint8_t>(old + share * (rgba_[4 * source + c] - old) + 0.5f);
-    }
+    const __m128 old =
+        colour(to[0] | static_cast<unsigned>(to[1]) << 8 | static_cast<unsigned>(to[2]) << 16);
+    unsigned other;
+    std::memcpy(&other, rgba_ + 4 * source, sizeof other);
+    const __m128 change = _mm_mul_ps(_mm_set1_ps(share), _mm_sub_ps(colour(other), old));
+    const __m128i mixed = _mm_cvttps_epi32(_mm_add_ps(_mm_add_ps(old, change), _mm_set1_ps(0.5f)));
+    const __m128i words = _mm_packs_epi32(mixed, mixed);
+    const auto bytes = static_cast<unsigned>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
+    to[0] = static_cast<std::uint8_t>(bytes);
+    to[1] = static_cast<std::uint8_t>(bytes >> 8);
+    to[2] = static_cast<std::uint8_t>(bytes >> 16);
   }
 
   const std::uint8_t* rgba_;

@@ -1,0 +1,225 @@
+// The surfaces of a vector of pixels, each of which may see another triangle.
+//
+// Method  The planes of all triangles are collected in the lanes that see them, and then computed
+//         once. Materials are computed once for each item.
+#pragma once
+
+#include "gsv/rendering/raster/surface.h"
+
+namespace gsv::rendering::raster {
+
+// The surfaces at the pixels of a vector, each of which may see another triangle. Colours are
+// linear.
+template <class F>
+struct Surfaces {
+  F w;                   // distance along the view
+  Three<F> normal;       // points towards the camera and includes the normal map
+  Three<F> face_normal;  // does not include the normal map; only set if has_normal_map
+  bool has_normal_map = false;
+  Three<F> base, emissive;  // base colour and emitted light
+  F alpha, metalness, roughness;
+  F occlusion;                     // the fraction of ambient light that reaches the surface
+  typename Lanes<F>::Ints number;  // number of the surface, from 1 to 255
+};
+
+// Texture coordinates in the lanes that see triangles with textures.
+template <class F>
+struct TextureLanes {
+  PlaneLanes<F> for_w, for_u, for_v;
+  F u, v;
+  // The middle of those of eight pixels that see the triangle, relative to its x0, and the distance
+  // of the pixels from its y0.
+  F middle, dy;
+};
+
+// The planes of the triangles that the pixels from (x, y) to the right see. To stay in registers, it
+// has no arrays, and must not be passed to functions.
+template <class F>
+class SeenPlanes {
+ public:
+  using Mask = typename Lanes<F>::Mask;
+
+  SeenPlanes(int x, int y) : x_(static_cast<float>(x)), y_(static_cast<float>(y)) {}
+
+  // Sets the triangle of the lanes of `mask`. The pixels `seen` see it (a bit for each lane).
+  __attribute__((always_inline)) void Set(Mask mask, const TriangleSurface& s, bool has_textures,
+                                          int seen) {
+    const float first_dx = x_ - s.x0, dy = y_ - s.y0;
+    alignas(32) float row[8];
+    Store(row, Load(s.c) + Load(s.b) * Splat(dy));
+    Set(mask, first_dx_, first_dx);
+    Set(mask, w_.a, s.a[TriangleSurface::kInverseW]);
+    Set(mask, w_row_, row[TriangleSurface::kInverseW]);
+    Set(mask, normal_a_.x, s.a[TriangleSurface::kNormalX]);
+    Set(mask, normal_a_.y, s.a[TriangleSurface::kNormalY]);
+    Set(mask, normal_a_.z, s.a[TriangleSurface::kNormalZ]);
+    Set(mask, normal_row_.x, row[TriangleSurface::kNormalX]);
+    Set(mask, normal_row_.y, row[TriangleSurface::kNormalY]);
+    Set(mask, normal_row_.z, row[TriangleSurface::kNormalZ]);
+    number_ = SelectInt(mask, SplatInt<F>(s.number), number_);
+    if (!has_textures) return;
+    has_textures_ = true;
+    Set(mask, w_.b, s.b[TriangleSurface::kInverseW]);
+    Set(mask, w_.c, s.c[TriangleSurface::kInverseW]);
+    Set(mask, u_.a, s.a[TriangleSurface::kU]);
+    Set(mask, u_.b, s.b[TriangleSurface::kU]);
+    Set(mask, u_.c, s.c[TriangleSurface::kU]);
+    Set(mask, v_.a, s.a[TriangleSurface::kV]);
+    Set(mask, v_.b, s.b[TriangleSurface::kV]);
+    Set(mask, v_.c, s.c[TriangleSurface::kV]);
+    Set(mask, dy_, dy);
+    middle_ = Select(mask, ByGroup<F>(Splat(first_dx) + MiddlesOf<F>(seen)), middle_);
+  }
+
+  // Sets w, the normals and the numbers of `s`, and the texture coordinates if a triangle has
+  // textures.
+  void Compute(Surfaces<F>& s, TextureLanes<F>& textures) const {
+    const F dx = first_dx_ + Steps<F>();
+    s.w = Splat<F>(1) / Fma(w_.a, dx, w_row_);
+    s.normal = {Fma(normal_a_.x, dx, normal_row_.x), Fma(normal_a_.y, dx, normal_row_.y),
+                Fma(normal_a_.z, dx, normal_row_.z)};
+    s.number = number_;
+    if (!has_textures_) return;
+    const auto at = [&](const PlaneLanes<F>& p) { return Fma(p.a, dx, p.c + p.b * dy_) * s.w; };
+    textures = {w_, u_, v_, at(u_), at(v_), middle_, dy_};
+  }
+
+ private:
+  __attribute__((always_inline)) static void Set(Mask mask, F& lanes, float value) {
+    lanes = Select(mask, Splat<F>(value), lanes);
+  }
+
+  float x_, y_;
+  F first_dx_{};  // distance of the vector's first pixel from the triangle's x0
+  F w_row_{};     // c + b (y - y0) of w_; likewise for the normals
+  Three<F> normal_a_{}, normal_row_{};
+  typename Lanes<F>::Ints number_{};
+  bool has_textures_ = false;
+  PlaneLanes<F> w_{}, u_{}, v_{};
+  F middle_{}, dy_{};
+};
+
+inline bool HasTextures(const DrawGroup& group) {
+  return group.base_colour || group.normal || group.metallic_roughness || group.emissive ||
+         group.occlusion || group.light;
+}
+
+// The items that the pixels of a vector see.
+template <class F>
+class SeenItems {
+ public:
+  using Mask = typename Lanes<F>::Mask;
+  static constexpr int kLanes = Lanes<F>::kCount;
+
+  // Sets the triangle of the lanes of `mask`. There may be one triangle for each lane.
+  void Set(Mask mask, const Drawn& drawn, const Triangle& t) {
+    triangles_[count_++] = {&t, mask};
+    int at = part_count_;
+    for (int i = 0; i < part_count_; ++i) {
+      if (parts_[i].drawn == &drawn) at = i;
+      parts_[i].mask = parts_[i].mask & ~mask;
+    }
+    if (at == part_count_) parts_[part_count_++] = {&drawn, mask};
+    parts_[at].mask = parts_[at].mask | mask;
+  }
+
+  // Sets the properties of the materials, and turns normals towards the camera. `ray` is the direction
+  // of each pixel, with the component 1 along the view.
+  void Compute(const TextureLanes<F>& textures, const Three<F>& ray, Surfaces<F>& s) const {
+    for (int i = 0; i < part_count_; ++i) {
+      if (!parts_[i].drawn->group->double_sided) continue;
+      const Mask turned = parts_[i].mask & Less(Splat<F>(0), Dot(s.normal, ray));
+      s.normal = Select(turned, s.normal * Splat<F>(-1), s.normal);
+    }
+    for (int i = 0; i < part_count_; ++i) AddMaterial(parts_[i], i == 0, textures, s);
+  }
+
+ private:
+  // The lanes that see an item.
+  struct Part {
+    const Drawn* drawn;
+    Mask mask;
+  };
+  // The lanes that see a triangle. Later triangles may have taken some of them.
+  struct Seen {
+    const Triangle* triangle;
+    Mask mask;
+  };
+
+  // Sets the properties of the material of an item, in all lanes for the first item.
+  void AddMaterial(const Part& part, bool is_first, const TextureLanes<F>& at,
+                   Surfaces<F>& s) const {
+    const DrawGroup& group = *part.drawn->group;
+    const SurfaceFactors& f = *part.drawn->factors;
+    Three<F> base = Splat<F>(f.base_colour[0], f.base_colour[1], f.base_colour[2]);
+    Three<F> emissive =
+        Splat<F>(f.emissive_metalness[0], f.emissive_metalness[1], f.emissive_metalness[2]);
+    F alpha = Splat<F>(f.base_colour[3]), metalness = Splat<F>(f.emissive_metalness[3]),
+      roughness = Splat<F>(f.roughness), occlusion = Splat<F>(1);
+    const auto look = [&](const std::shared_ptr<const DrawTexture>& texture) {
+      const auto& of = static_cast<const RasterTexture&>(*texture);
+      const F levels = LevelsAt<F>(at.for_w, at.for_u, at.for_v, at.middle, at.dy, of);
+      return Sample(of, MipLevels<F>(of, levels), at.u, at.v, part.mask);
+    };
+    if (group.base_colour) {
+      const Texels<F> texel = look(group.base_colour);
+      base = base * Decoded(texel);
+      alpha = alpha * texel.a;
+    }
+    if (group.metallic_roughness) {
+      const Texels<F> texel = look(group.metallic_roughness);
+      metalness = metalness * texel.b;
+      roughness = Max(roughness * texel.g, Splat<F>(0.05f));
+    }
+    if (group.emissive) emissive = emissive * Decoded(look(group.emissive));
+    if (group.occlusion) occlusion = look(group.occlusion).r;
+    if (group.light) {
+      const Three<F> diffuse = base * (Splat<F>(1) - metalness);
+      emissive = emissive + Decoded(look(group.light)) * (diffuse * occlusion);
+    }
+    if (group.normal) {
+      if (!s.has_normal_map) s.face_normal = s.normal;
+      s.has_normal_map = true;
+      s.normal =
+          Select(part.mask, Bumped(part, look(group.normal), Normalized(s.face_normal)), s.normal);
+    }
+    if (is_first) {
+      s.base = base, s.emissive = emissive, s.alpha = alpha, s.metalness = metalness;
+      s.roughness = roughness, s.occlusion = occlusion;
+      return;
+    }
+    s.base = Select(part.mask, base, s.base);
+    s.emissive = Select(part.mask, emissive, s.emissive);
+    s.alpha = Select(part.mask, alpha, s.alpha);
+    s.metalness = Select(part.mask, metalness, s.metalness);
+    s.roughness = Select(part.mask, roughness, s.roughness);
+    s.occlusion = Select(part.mask, occlusion, s.occlusion);
+  }
+
+  // Applies the normal map of an item to its normals `n`, in a frame along the texture's axes. v runs
+  // downwards.
+  Three<F> Bumped(const Part& part, const Texels<F>& bump, const Three<F>& n) const {
+    Three<F> right = Splat<F>(0, 0, 0), down = right;
+    Mask has_axes = MaskOf<F>(0);
+    for (int i = 0; i < count_; ++i) {
+      const auto& [triangle, mask] = triangles_[i];
+      if (Bits(mask & part.mask) == 0) continue;
+      const BumpAxes axes = BumpAxesOf(*part.drawn, *triangle);
+      has_axes = axes.is_valid ? has_axes | mask : has_axes & ~mask;
+      if (!axes.is_valid) continue;
+      right = Select(mask, Splat<F>(axes.right[0], axes.right[1], axes.right[2]), right);
+      down = Select(mask, Splat<F>(axes.down[0], axes.down[1], axes.down[2]), down);
+    }
+    const auto centred = [](F value) { return Fma(value, Splat<F>(2), Splat<F>(-1)); };
+    return Select(
+        has_axes,
+        Normalized(right * centred(bump.r) - down * centred(bump.g) + n * centred(bump.b)), n);
+  }
+
+  Seen triangles_[kLanes];
+  int count_ = 0;
+  Part parts_[kLanes];
+  int part_count_ = 0;
+};
+
+}  // namespace gsv::rendering::raster
