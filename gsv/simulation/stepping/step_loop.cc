@@ -271,8 +271,9 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread)
 
 // Applies a thread's previous piece and wakes the agents of its next piece under one lock of the
 // mutex. Locking is slow, because usually another thread was the last one to lock the mutex. The
-// agents of the previous piece are still in the cache. Another thread keeps the mutex locked for at most about a microsecond. To sleep
-// would take longer, so this thread first tries several times to lock the mutex.
+// agents of the previous piece are still in the cache. Another thread keeps the mutex locked for at
+// most about a microsecond. To sleep would take longer, so this thread first tries several times to
+// lock the mutex.
 void StepLoop::ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread) {
   base::Mutex& mutex = parts_.shared->mutex;
   int tries = 0;
