@@ -274,7 +274,9 @@ class Sweeper final : public Controller {
     for (int i = 0; i < kSonars; ++i) {
       EXPECT_EQ(readings.at(i).sensor, "s" + std::to_string(i));
       // One of the tests disables the first sensor, so its reading may be older.
-      if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());
+      if (i > 0) {
+        EXPECT_EQ(readings.at(i).time, robot_->Now());
+      }
       swept.push_back(readings.at(i).values.at(0));
       alone.push_back(sonars_[i]->Range());
     }
@@ -295,7 +297,9 @@ TEST(HostedBehaviour, ReadingManySonarsTogetherEqualsReadingThemOneByOne) {
     EXPECT_EQ(swept, alone);
     for (const double range : swept) echoes += range < 4;
     // When a viewer reads the same sensor too, the behaviour still gets the same samples.
-    if (++cycles == 5) EXPECT_EQ(simulation->Watch("robot", "s2")->values.at(0), swept[2]);
+    if (++cycles == 5) {
+      EXPECT_EQ(simulation->Watch("robot", "s2")->values.at(0), swept[2]);
+    }
   };
   ASSERT_TRUE(simulation->AddRobot(
       simulation::Robot("robot", 0, 0, std::make_shared<HostedBehaviour>("sweeper", [look] {

@@ -203,7 +203,9 @@ TEST(SendWindow, ConnectionIsSlowIfAllPongsAreLate) {
     window.Sent(SendWindow::kMinBytes, true, now);
     const std::uint64_t number = window.Ping(now, now);
     now += 2 * SendWindow::kInTimeAfter;
-    if (i == 2) EXPECT_TRUE(window.IsSlow(now)) << "while a pong is overdue";
+    if (i == 2) {
+      EXPECT_TRUE(window.IsSlow(now)) << "while a pong is overdue";
+    }
     window.Pong(number, now);
   }
   EXPECT_TRUE(window.IsSlow(now));

@@ -113,7 +113,7 @@ class SeenItems {
 
   // Sets the triangle of the lanes of `mask`. There may be one triangle for each lane.
   void Set(Mask mask, const Drawn& drawn, const Triangle& t) {
-    triangles_[count_++] = {&t, mask};
+    triangles_[count_++] = {&drawn, &t, mask};
     int at = part_count_;
     for (int i = 0; i < part_count_; ++i) {
       if (parts_[i].drawn == &drawn) at = i;
@@ -142,6 +142,7 @@ class SeenItems {
   };
   // The lanes that see a triangle. Later triangles may have taken some of them.
   struct Seen {
+    const Drawn* drawn;
     const Triangle* triangle;
     Mask mask;
   };
@@ -202,8 +203,8 @@ class SeenItems {
     Three<F> right = Splat<F>(0, 0, 0), down = right;
     Mask has_axes = MaskOf<F>(0);
     for (int i = 0; i < count_; ++i) {
-      const auto& [triangle, mask] = triangles_[i];
-      if (Bits(mask & part.mask) == 0) continue;
+      const auto& [drawn, triangle, mask] = triangles_[i];
+      if (drawn != part.drawn) continue;
       const BumpAxes axes = BumpAxesOf(*part.drawn, *triangle);
       has_axes = axes.is_valid ? has_axes | mask : has_axes & ~mask;
       if (!axes.is_valid) continue;

@@ -240,7 +240,12 @@ inline Mask16 Less(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)}
 inline Mask16 AtLeast(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_OQ)}; }
 inline Mask16 LessInt(I16 a, I16 b) { return {_mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b)}; }
 inline Mask16 EqualInt(I16 a, I16 b) { return {_mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b)}; }
-inline int Bits(Mask16 mask) { return mask.bits; }
+// GCC 12 may store a mask as 16 bits and then read 32 bits, so the conversion is explicit.
+inline int Bits(Mask16 mask) {
+  int bits;
+  asm("kmovw %1, %0" : "=r"(bits) : "k"(mask.bits));
+  return bits;
+}
 template <>
 inline Mask16 MaskOf<F16>(int bits) {
   return {static_cast<__mmask16>(bits)};
@@ -270,7 +275,7 @@ inline I16 GatherByte(const std::uint8_t* from, I16 index) {
 }
 // Returns a mask in which all lanes of a half are set if a lane of this half is set.
 inline Mask16 AnyOfEight(Mask16 mask) {
-  const unsigned bits = mask.bits;
+  const int bits = Bits(mask);
   return {
       static_cast<__mmask16>(((bits & 0xff) != 0 ? 0xff : 0) | ((bits >> 8) != 0 ? 0xff00 : 0))};
 }
