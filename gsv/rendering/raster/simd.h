@@ -88,12 +88,15 @@ inline F8 Gather(const float* from, I8 index) {
 inline I8 GatherInt(const void* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
+// The shuffle that moves byte K of each of four elements to its lowest byte, and clears the others.
+template <int K>
+__m128i ByteOrder() {
+  return _mm_setr_epi8(K, -1, -1, -1, K + 4, -1, -1, -1, K + 8, -1, -1, -1, K + 12, -1, -1, -1);
+}
 // Returns byte K of each element; byte 0 is the lowest.
 template <int K>
 I8 Byte(I8 a) {
-  const __m128i order = _mm_setr_epi8(K, -1, -1, -1, K + 4, -1, -1, -1, K + 8, -1, -1, -1, K + 12,
-                                      -1, -1, -1);  // -1 gives 0
-  return (I8)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(order));
+  return (I8)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(ByteOrder<K>()));
 }
 struct I8x2 {
   I8 first, second;
@@ -255,9 +258,7 @@ inline I16 GatherInt(const void* from, I16 index) {
 }
 template <int K>
 I16 Byte(I16 a) {
-  const __m128i order =
-      _mm_setr_epi8(K, -1, -1, -1, K + 4, -1, -1, -1, K + 8, -1, -1, -1, K + 12, -1, -1, -1);
-  return (I16)_mm512_shuffle_epi8((__m512i)a, _mm512_broadcast_i32x4(order));
+  return (I16)_mm512_shuffle_epi8((__m512i)a, _mm512_broadcast_i32x4(ByteOrder<K>()));
 }
 struct I16x2 {
   I16 first, second;
