@@ -90,20 +90,29 @@ async function playedBeside(video, images) {
         player.addEventListener(name, resolve, { once: true });
         player.addEventListener("error", () => reject(new Error(player.error.message)), { once: true });
       });
-      let next = eventOf("loadeddata");
+      const loaded = eventOf("loadeddata");
       player.src = URL.createObjectURL(new Blob([bytes(film)], { type: "video/webm" }));
-      await next;
+      await loaded;
       const canvas = new OffscreenCanvas(player.videoWidth, player.videoHeight);
       const context = canvas.getContext("2d");
       const pixels = (image) => {
         context.drawImage(image, 0, 0);
         return context.getImageData(0, 0, canvas.width, canvas.height).data;
       };
+      // Resolves when the browser shows the frame that contains this time. A frame lasts 0.1 s. The event
+      // "seeked" may come before the browser shows the frame.
+      const showFrame = (time) => new Promise((resolve, reject) => {
+        const deadline = setTimeout(() => reject(new Error(`no frame for ${time} s`)), 30_000);
+        player.requestVideoFrameCallback(function check(_, { mediaTime }) {
+          if (mediaTime > time || mediaTime + 0.1 <= time) return player.requestVideoFrameCallback(check);
+          clearTimeout(deadline);
+          resolve();
+        });
+        player.currentTime = time;
+      });
       const differences = [];
       for (const [time, png] of shots) {
-        next = eventOf("seeked");
-        player.currentTime = time;
-        await next;
+        await showFrame(time);
         const [shown, wanted] = [pixels(player), pixels(await createImageBitmap(new Blob([bytes(png)], { type: "image/png" })))];
         differences.push(shown.reduce((sum, value, i) => sum + Math.abs(value - wanted[i]), 0) / (0.75 * shown.length));
       }
