@@ -8,6 +8,7 @@ import io
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -60,6 +61,37 @@ class Table(unittest.TestCase):
     def test_a_command_beside_gives_its_last_number(self):
         row = Row("r", "s", 1, False, lambda: Measured(6))
         self.assertEqual(run_rows(row, "echo took 2 steps 3 times")["beside"], [3, 3, 3])
+
+
+class Options(unittest.TestCase):
+    def run_main(self, *options):
+        """Runs bench/all with a program that does nothing. Returns its exit code and what it prints on stderr."""
+        with tempfile.TemporaryDirectory() as build, contextlib.redirect_stderr(io.StringIO()) as errors:
+            Path(build, "bin").mkdir()
+            Path(build, "bin", "gsv").symlink_to("/bin/true")
+            with unittest.mock.patch("sys.argv", ["bench/all", build, build + "/out.json", *options]):
+                with contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit) as stopped:
+                    sys.exit(bench.main())
+        return stopped.exception.code, errors.getvalue()
+
+    def test_an_unknown_row_is_refused_with_the_names_of_all_rows(self):
+        for options in (("--rows", "foo"), ("--rows", "start,foo"), ("--rows", "foo,start")):
+            code, text = self.run_main(*options)
+            self.assertEqual(code, 2)
+            self.assertEqual(text.count("\n"), 1)
+            self.assertIn('there is no row "foo"; the rows are "start: gsv --version", ', text)
+            self.assertIn('"build for make run"', text)
+
+    def test_a_command_beside_a_row_that_does_not_run_is_refused(self):
+        code, text = self.run_main("--rows", "start: gsv --v", "--beside", "lidar=echo 1")
+        self.assertEqual(code, 2)
+        self.assertIn('the row "lidar", which does not run; these rows run: "start: gsv --version".', text)
+
+    def test_rows_are_selected_by_the_beginning_of_their_names_also_with_commas(self):
+        rows = [Row(name, "s", 1, False, None) for name in ("crowd 100, 1 thread", "crowd 100, 2 threads", "lidar, 360")]
+        for text, names in (("lidar", [2]), ("crowd", [0, 1]), ("crowd 100, 2 threads, lidar", [1, 2]),
+                            ("lidar, 360,crowd 100, 1", [0, 2]), ("", []), ("lidar,", [2])):
+            self.assertEqual(bench.selected(rows, text), [rows[i] for i in names], text)
 
 
 class Rows(unittest.TestCase):
