@@ -11,7 +11,8 @@
 #                  a bare Debian, which needs root and debootstrap
 #   make bench     runs all benches (half an hour; run no other programs meanwhile), prints a table
 #                  and writes build/release/bench.json. BENCH_ARGS="--quick --rows crowd,lidar" runs
-#                  some of them for a short time; bench/all lists its options
+#                  some of them for a short time. With "--against BUILD2", it measures each row
+#                  also with the build BUILD2 of another version. bench/all lists its options
 #   make chaos     disturbs a running server for CHAOS_SECONDS (3600), see tests/chaos/chaos.py
 #   make fuzz      runs each fuzz target with random input for FUZZ_SECONDS (60), which needs clang,
 #                  and sends mutated requests to all servants for the same time (FUZZ_SEED: seed)
