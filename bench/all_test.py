@@ -133,6 +133,11 @@ class Options(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn('the row "lidar", which does not run; these rows run: "start: gsv --version".', text)
 
+    def test_a_command_beside_without_a_row_is_refused(self):
+        code, _, text, _ = run_main(self.build, "--beside", "echo 1")
+        self.assertEqual(code, 2)
+        self.assertIn('--beside "echo 1" has no "="', text)
+
     def test_a_folder_without_gsv_is_refused(self):
         for options in (("/nowhere",), (self.build, "--against", "/nowhere")):
             code, _, text, _ = run_main(*options)
