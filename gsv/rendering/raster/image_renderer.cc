@@ -96,9 +96,9 @@ model::Image ImageRenderer::Smooth() const {
 void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
   width_ = view.parameters.width, height_ = view.parameters.height;
   stride_ = width_ + kMaxLanes;
-  const std::size_t pixels = At(0, height_);
-  inverse_w_.assign(pixels + kMaxLanes, static_cast<float>(1 / view.parameters.far));
-  nearest_.assign(pixels + kMaxLanes, 0);
+  const std::size_t with_one_more_row = At(0, height_ + 1);
+  inverse_w_.assign(with_one_more_row, static_cast<float>(1 / view.parameters.far));
+  nearest_.assign(with_one_more_row, 0);
   rgba_.resize(static_cast<std::size_t>(width_) * height_ + kMaxLanes);
   triangles_.clear();
   drawn_.clear();
@@ -196,7 +196,7 @@ bool ImageRenderer::IsHidden(const CameraView& view, const Vector3& centre, doub
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; x += 8) {
       const I8 inside = IntSteps() <= SplatInt(x1 - x);
-      if (Bits(inside & (Load(&inverse_w_[At(x, y)]) < nearest)) != 0) return false;
+      if (Any(inside & (Load(&inverse_w_[At(x, y)]) < nearest))) return false;
     }
   }
   return true;

@@ -147,7 +147,7 @@ class LightModel {
     constexpr float kStart = 0.8f, kDesaturation = 0.15f, kRest = 1 - kStart;
     const F peak = Max(colour.x, Max(colour.y, colour.z));
     const Mask bright = AtLeast(peak, Splat<F>(kStart));
-    if (Bits(bright) == 0) return colour;
+    if (!Any(bright)) return colour;
     const F new_peak = Splat<F>(1) - Splat<F>(kRest * kRest) / (peak + Splat<F>(kRest - kStart));
     const Three<F> scaled = colour * (new_peak / peak);
     const F white =
@@ -173,10 +173,10 @@ class LightModel {
     Three<F> light = reflector.emissive + Ambient<kGrey>(point) * reflector.occlusion;
     const F n_dot_l = Clamp01(facing.to_sun);
     const Mask sunny = used & Less(Splat<F>(0), n_dot_l);
-    if (Bits(sunny) != 0) {
+    if (Any(sunny)) {
       const F visible =
           shadow_ == nullptr ? Splat<F>(1) : SunAt(face_normal, point.position, n_dot_l, sunny);
-      if (Bits(used & Less(Splat<F>(0), n_dot_l * visible)) != 0) {
+      if (Any(used & Less(Splat<F>(0), n_dot_l * visible))) {
         light = light +
                 Reflected<kGrey>(point, to_sun_, facing.to_sun, n_dot_l) * (sun_colour_ * visible);
       }
@@ -265,7 +265,7 @@ class LightModel {
       const F x2 = distance2 * lamp.inverse_range2;
       // Returns early if all points are beyond the lamp's range or face away from the lamp. The
       // computation below would give no light either.
-      if (Bits(Less(x2, Splat<F>(1)) & Less(Splat<F>(0), Dot(p.facing.normal, offset))) == 0) {
+      if (!Any(Less(x2, Splat<F>(1)) & Less(Splat<F>(0), Dot(p.facing.normal, offset)))) {
         return;
       }
       const F window = Clamp01(Fma(-x2, x2, Splat<F>(1)));
@@ -282,7 +282,7 @@ class LightModel {
     const F n_dot_l = Clamp01(normal_to_light);
     // Eight pixels to which the lamp gives too little light to be visible with eight bits get none.
     const Mask lit = AnyOfEight(Less(Splat<F>(1e-3f), n_dot_l * strength));
-    if (Bits(lit) == 0) return;
+    if (!Any(lit)) return;
     const Three<F> sum =
         light + Reflected<kGrey>(p, to_light, normal_to_light, n_dot_l) * (lamp.colour * strength);
     light = Lanes<F>::kCount == 8 ? sum : Select(lit, sum, light);

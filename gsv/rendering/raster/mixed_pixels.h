@@ -27,61 +27,60 @@ template <class F>
 struct TextureLanes {
   PlaneLanes<F> for_w, for_u, for_v;
   F u, v;
-  // The middle of those of eight pixels that see the triangle, relative to its x0, and the distance
+  // The middle of those pixels of a group that see the triangle, relative to its x0, and the distance
   // of the pixels from its y0.
   F middle, dy;
 };
 
-// The planes of the triangles that the pixels from (x, y) to the right see. To stay in registers, it
-// has no arrays, and must not be passed to functions.
+// The planes of the triangles that the pixels of a vector see. To stay in registers, it has no arrays,
+// and must not be passed to functions.
 template <class F>
 class SeenPlanes {
  public:
   using Mask = typename Lanes<F>::Mask;
 
-  SeenPlanes(int x, int y) : x_(static_cast<float>(x)), y_(static_cast<float>(y)) {}
+  explicit SeenPlanes(const Pixels<F>& pixels)
+      : columns_(pixels.ColumnsFrom(0)), rows_(pixels.RowsFrom(0)) {}
 
   // Sets the triangle of the lanes of `mask`. The pixels `seen` see it (a bit for each lane).
   __attribute__((always_inline)) void Set(Mask mask, const TriangleSurface& s, bool has_textures,
                                           int seen) {
-    const float first_dx = x_ - s.x0, dy = y_ - s.y0;
-    alignas(32) float row[8];
-    Store(row, Load(s.c) + Load(s.b) * Splat(dy));
-    Set(mask, first_dx_, first_dx);
+    Set(mask, x0_, s.x0);
+    Set(mask, y0_, s.y0);
     Set(mask, w_.a, s.a[TriangleSurface::kInverseW]);
-    Set(mask, w_row_, row[TriangleSurface::kInverseW]);
-    Set(mask, normal_a_.x, s.a[TriangleSurface::kNormalX]);
-    Set(mask, normal_a_.y, s.a[TriangleSurface::kNormalY]);
-    Set(mask, normal_a_.z, s.a[TriangleSurface::kNormalZ]);
-    Set(mask, normal_row_.x, row[TriangleSurface::kNormalX]);
-    Set(mask, normal_row_.y, row[TriangleSurface::kNormalY]);
-    Set(mask, normal_row_.z, row[TriangleSurface::kNormalZ]);
+    Set(mask, w_.b, s.b[TriangleSurface::kInverseW]);
+    Set(mask, w_.c, s.c[TriangleSurface::kInverseW]);
+    Set(mask, normal_x_.a, s.a[TriangleSurface::kNormalX]);
+    Set(mask, normal_x_.b, s.b[TriangleSurface::kNormalX]);
+    Set(mask, normal_x_.c, s.c[TriangleSurface::kNormalX]);
+    Set(mask, normal_y_.a, s.a[TriangleSurface::kNormalY]);
+    Set(mask, normal_y_.b, s.b[TriangleSurface::kNormalY]);
+    Set(mask, normal_y_.c, s.c[TriangleSurface::kNormalY]);
+    Set(mask, normal_z_.a, s.a[TriangleSurface::kNormalZ]);
+    Set(mask, normal_z_.b, s.b[TriangleSurface::kNormalZ]);
+    Set(mask, normal_z_.c, s.c[TriangleSurface::kNormalZ]);
     number_ = SelectInt(mask, SplatInt<F>(s.number), number_);
     if (!has_textures) return;
     has_textures_ = true;
-    Set(mask, w_.b, s.b[TriangleSurface::kInverseW]);
-    Set(mask, w_.c, s.c[TriangleSurface::kInverseW]);
     Set(mask, u_.a, s.a[TriangleSurface::kU]);
     Set(mask, u_.b, s.b[TriangleSurface::kU]);
     Set(mask, u_.c, s.c[TriangleSurface::kU]);
     Set(mask, v_.a, s.a[TriangleSurface::kV]);
     Set(mask, v_.b, s.b[TriangleSurface::kV]);
     Set(mask, v_.c, s.c[TriangleSurface::kV]);
-    Set(mask, dy_, dy);
-    middle_ = Select(mask, ByGroup<F>(Splat(first_dx) + MiddlesOf<F>(seen)), middle_);
+    middle_ = Select(mask, ByGroup<F>(MiddlesOf<F>(seen)), middle_);
   }
 
   // Sets w, the normals and the numbers of `s`, and the texture coordinates if a triangle has
   // textures.
   void Compute(Surfaces<F>& s, TextureLanes<F>& textures) const {
-    const F dx = first_dx_ + Steps<F>();
-    s.w = Splat<F>(1) / Fma(w_.a, dx, w_row_);
-    s.normal = {Fma(normal_a_.x, dx, normal_row_.x), Fma(normal_a_.y, dx, normal_row_.y),
-                Fma(normal_a_.z, dx, normal_row_.z)};
+    const F dx = columns_ - x0_, dy = rows_ - y0_;
+    const auto at = [&](const PlaneLanes<F>& p) { return Fma(p.a, dx, p.c + p.b * dy); };
+    s.w = Splat<F>(1) / at(w_);
+    s.normal = {at(normal_x_), at(normal_y_), at(normal_z_)};
     s.number = number_;
     if (!has_textures_) return;
-    const auto at = [&](const PlaneLanes<F>& p) { return Fma(p.a, dx, p.c + p.b * dy_) * s.w; };
-    textures = {w_, u_, v_, at(u_), at(v_), middle_, dy_};
+    textures = {w_, u_, v_, at(u_) * s.w, at(v_) * s.w, columns_ - Steps<F>() - x0_ + middle_, dy};
   }
 
  private:
@@ -89,14 +88,13 @@ class SeenPlanes {
     lanes = Select(mask, Splat<F>(value), lanes);
   }
 
-  float x_, y_;
-  F first_dx_{};  // distance of the vector's first pixel from the triangle's x0
-  F w_row_{};     // c + b (y - y0) of w_; likewise for the normals
-  Three<F> normal_a_{}, normal_row_{};
+  F columns_, rows_;
+  F x0_{}, y0_{};  // the origins of the triangles
+  PlaneLanes<F> w_{}, normal_x_{}, normal_y_{}, normal_z_{};
   typename Lanes<F>::Ints number_{};
   bool has_textures_ = false;
-  PlaneLanes<F> w_{}, u_{}, v_{};
-  F middle_{}, dy_{};
+  PlaneLanes<F> u_{}, v_{};
+  F middle_{};  // see MiddlesOf()
 };
 
 inline bool HasTextures(const DrawGroup& group) {

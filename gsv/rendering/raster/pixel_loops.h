@@ -20,8 +20,8 @@ inline constexpr int kTileWidth = 32, kTileHeight = 16;
 // An image that is being drawn.
 struct ImageInProgress {
   int width = 0, height = 0;
-  // Pixels in a row of `inverse_w` and `nearest`: at least width + kMaxLanes. kMaxLanes elements
-  // follow the last row.
+  // Pixels in a row of `inverse_w` and `nearest`: at least width + kMaxLanes. Both have one row more
+  // than the image, in which `nearest` is 0.
   int stride = 0;
   float* inverse_w = nullptr;  // 1/w of the nearest surface, by pixel
   std::uint32_t* nearest =

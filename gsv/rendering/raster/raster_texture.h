@@ -123,7 +123,7 @@ Texels<F> Sample(const RasterTexture& texture, const MipLevels<F>& levels, F u, 
   u = u - Floor(u), v = v - Floor(v);
   const Texels<F> a = SampleLevels(texture, LevelSizes<F>(texture, levels.fine), u, v);
   const auto is_blended = Less(Splat<F>(0), levels.share);
-  if (Bits(needed & is_blended) == 0) return a;
+  if (!Any(needed & is_blended)) return a;
   const auto next = SelectInt(is_blended, levels.fine + 1, levels.fine);
   const Texels<F> b = SampleLevels(texture, LevelSizes<F>(texture, next), u, v);
   const F k = levels.share;

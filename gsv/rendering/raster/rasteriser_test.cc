@@ -228,7 +228,7 @@ TEST(RasterBatchRenderer, DrawsEqualImagesWithEightAndWithSixteenLanes) {
     for (int i = 0; i < 8; ++i) {
       views.push_back(
           {{{-0.2 * i, 0, 0.3 + 0.2 * i}, geometry::FromRollPitchYaw({0.1 * i, 0.05 * i, 0})},
-           {width, 90, 1.1, 0.05, 60}});
+           {width, 90 + width % 2, 1.1, 0.05, 60}});
     }
     const auto expected = eight.Draw(*snapshot, views), drawn = sixteen.Draw(*snapshot, views);
     ASSERT_TRUE(expected && drawn);

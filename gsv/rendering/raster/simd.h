@@ -10,6 +10,7 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace gsv::rendering::raster {
@@ -22,14 +23,14 @@ typedef float F8 __attribute__((vector_size(32)));
 // also used as masks, in which a lane has all bits or none
 typedef std::int32_t I8 __attribute__((vector_size(32)));
 
-// The types that belong to a vector of floats.
+// The types that belong to a vector of floats. Its lanes are one or two groups of eight.
 template <class F>
 struct Lanes;
 template <>
 struct Lanes<F8> {
   using Ints = I8;
   using Mask = I8;
-  static constexpr int kCount = 8;
+  static constexpr int kCount = 8, kGroups = 1;
 };
 
 // Returns a vector with this number in all lanes.
@@ -37,11 +38,30 @@ template <class F>
 F Splat(float value);
 template <class F>
 typename Lanes<F>::Ints SplatInt(std::int32_t value);
-// Returns 0, 1, 2, ...
+// Returns 0 to 7, in each group of eight lanes.
 template <class F>
 F Steps();
 template <class F>
 typename Lanes<F>::Ints IntSteps();
+// Returns a vector in which all lanes of a group have the value of this group.
+template <class F>
+F SplatGroups(const float (&values)[Lanes<F>::kGroups]);
+// Returns a vector in which all lanes of the n-th group have the value of lane `first` + n.
+template <class F>
+F FromLanes(F8 values, int first);
+// Returns a vector with the value of the n-th group in lane n.
+template <class F>
+F8 OfGroups(const float (&values)[Lanes<F>::kGroups]);
+// The places of the groups of a vector in an array: each has eight elements from this index on.
+template <class F>
+struct Places {
+  std::size_t of[Lanes<F>::kGroups];
+};
+// Loads the elements of all groups.
+template <class F>
+F LoadGroups(const float* from, const Places<F>& at);
+template <class F>
+typename Lanes<F>::Ints LoadGroupInts(const std::uint32_t* from, const Places<F>& at);
 
 template <>
 inline F8 Splat<F8>(float value) {
@@ -119,17 +139,25 @@ inline I8 GatherByte(const std::uint8_t* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), (__m256i)index, 1) &
          SplatInt(0xff);
 }
-template <class F>
-F Load(const float* from);
 template <>
-inline F8 Load<F8>(const float* from) {
-  return _mm256_loadu_ps(from);
+inline F8 LoadGroups<F8>(const float* from, const Places<F8>& at) {
+  return Load(from + at.of[0]);
 }
-template <class F>
-typename Lanes<F>::Ints LoadInts(const void* from);
 template <>
-inline I8 LoadInts<F8>(const void* from) {
-  return LoadInt(from);
+inline I8 LoadGroupInts<F8>(const std::uint32_t* from, const Places<F8>& at) {
+  return LoadInt(from + at.of[0]);
+}
+template <>
+inline F8 SplatGroups<F8>(const float (&values)[1]) {
+  return Splat(values[0]);
+}
+template <>
+inline F8 FromLanes<F8>(F8 values, int first) {
+  return _mm256_permutevar8x32_ps(values, (__m256i)SplatInt(first));
+}
+template <>
+inline F8 OfGroups<F8>(const float (&values)[1]) {
+  return F8{values[0]};
 }
 template <>
 inline F8 Steps<F8>() {
@@ -141,6 +169,8 @@ inline I8 IntSteps<F8>() {
 }
 inline F8 Steps() { return Steps<F8>(); }
 inline I8 IntSteps() { return IntSteps<F8>(); }
+// Whether a lane is set.
+inline bool Any(I8 mask) { return Bits(mask) != 0; }
 // Returns the mask of which Bits() returns `bits`.
 template <class F>
 typename Lanes<F>::Mask MaskOf(int bits);
@@ -164,14 +194,19 @@ template <>
 inline I8 ByGroup<F8>(I8 values) {
   return (I8)_mm256_broadcastd_epi32(_mm256_castsi256_si128((__m256i)values));
 }
-// Stores the lanes of `mask` and leaves the others, which are `old`.
-inline void StoreMasked(I8 mask, float* to, F8 value, F8 old) {
-  Store(to, Select(mask, value, old));
+// Stores the elements of those lanes that are set in `mask`. Other threads must not write the other
+// lanes' elements.
+inline void StoreGroups(I8 mask, float* to, const Places<F8>& at, F8 value) {
+  float* place = to + at.of[0];
+  Store(place, Select(mask, value, Load(place)));
 }
-inline void StoreMaskedInt(I8 mask, void* to, I8 value) {
-  StoreInt(to, SelectInt(mask, value, LoadInt(to)));
+inline void StoreAllGroups(std::uint32_t* to, const Places<F8>& at, I8 value) {
+  StoreInt(to + at.of[0], value);
 }
-inline I8 FirstEight(I8 mask) { return mask; }
+inline void StoreGroupInts(I8 mask, std::uint32_t* to, const Places<F8>& at, I8 value) {
+  std::uint32_t* place = to + at.of[0];
+  StoreInt(place, SelectInt(mask, value, LoadInt(place)));
+}
 // Returns the highest and the lowest lane.
 inline float MaxOf(F8 a) {
   F4 b = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
@@ -196,7 +231,7 @@ template <>
 struct Lanes<F16> {
   using Ints = I16;
   using Mask = Mask16;
-  static constexpr int kCount = 16;
+  static constexpr int kCount = 16, kGroups = 2;
 };
 
 inline Mask16 operator&(Mask16 a, Mask16 b) { return {_kand_mask16(a.bits, b.bits)}; }
@@ -212,22 +247,36 @@ inline I16 SplatInt<F16>(std::int32_t value) {
 }
 template <>
 inline F16 Steps<F16>() {
-  return F16{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return F16{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
 }
 template <>
 inline I16 IntSteps<F16>() {
-  return I16{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return I16{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
 }
 template <>
-inline F16 Load<F16>(const float* from) {
-  return _mm512_loadu_ps(from);
+inline F16 LoadGroups<F16>(const float* from, const Places<F16>& at) {
+  return _mm512_insertf32x8(_mm512_castps256_ps512(Load(from + at.of[0])), Load(from + at.of[1]),
+                            1);
 }
-inline void Store(float* to, F16 value) { _mm512_storeu_ps(to, value); }
 template <>
-inline I16 LoadInts<F16>(const void* from) {
-  return (I16)_mm512_loadu_si512(from);
+inline I16 LoadGroupInts<F16>(const std::uint32_t* from, const Places<F16>& at) {
+  return (I16)_mm512_inserti32x8(_mm512_castsi256_si512((__m256i)LoadInt(from + at.of[0])),
+                                 (__m256i)LoadInt(from + at.of[1]), 1);
 }
-inline void StoreInt(void* to, I16 value) { _mm512_storeu_si512(to, (__m512i)value); }
+template <>
+inline F16 SplatGroups<F16>(const float (&values)[2]) {
+  return _mm512_mask_broadcastss_ps(_mm512_set1_ps(values[0]), 0xff00, _mm_set_ss(values[1]));
+}
+template <>
+inline F16 FromLanes<F16>(F8 values, int first) {
+  const __m512i group = _mm512_set_epi32(1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0);
+  return _mm512_permutexvar_ps(_mm512_add_epi32(_mm512_set1_epi32(first), group),
+                               _mm512_castps256_ps512(values));
+}
+template <>
+inline F8 OfGroups<F16>(const float (&values)[2]) {
+  return F8{values[0], values[1]};
+}
 inline F16 Fma(F16 a, F16 b, F16 c) { return _mm512_fmadd_ps(a, b, c); }
 inline F16 Min(F16 a, F16 b) { return _mm512_min_ps(a, b); }
 inline F16 Max(F16 a, F16 b) { return _mm512_max_ps(a, b); }
@@ -249,6 +298,7 @@ inline int Bits(Mask16 mask) {
   asm("kmovw %1, %0" : "=r"(bits) : "k"(mask.bits));
   return bits;
 }
+inline bool Any(Mask16 mask) { return _kortestz_mask16_u8(mask.bits, mask.bits) == 0; }
 template <>
 inline Mask16 MaskOf<F16>(int bits) {
   return {static_cast<__mmask16>(bits)};
@@ -280,14 +330,22 @@ inline Mask16 AnyOfEight(Mask16 mask) {
   return {
       static_cast<__mmask16>(((bits & 0xff) != 0 ? 0xff : 0) | ((bits >> 8) != 0 ? 0xff00 : 0))};
 }
-inline void StoreMasked(Mask16 mask, float* to, F16 value, F16) {
-  _mm512_mask_storeu_ps(to, mask.bits, value);
+inline void StoreGroups(Mask16 mask, float* to, const Places<F16>& at, F16 value) {
+  _mm256_mask_storeu_ps(to + at.of[0], static_cast<__mmask8>(mask.bits),
+                        _mm512_castps512_ps256(value));
+  _mm256_mask_storeu_ps(to + at.of[1], static_cast<__mmask8>(mask.bits >> 8),
+                        _mm512_extractf32x8_ps(value, 1));
 }
-inline void StoreMaskedInt(Mask16 mask, void* to, I16 value) {
-  _mm512_mask_storeu_epi32(to, mask.bits, (__m512i)value);
+inline void StoreAllGroups(std::uint32_t* to, const Places<F16>& at, I16 value) {
+  StoreInt(to + at.of[0], (I8)_mm512_castsi512_si256((__m512i)value));
+  StoreInt(to + at.of[1], (I8)_mm512_extracti32x8_epi32((__m512i)value, 1));
 }
-// Returns the mask with only its first eight lanes.
-inline Mask16 FirstEight(Mask16 mask) { return {static_cast<__mmask16>(mask.bits & 0xff)}; }
+inline void StoreGroupInts(Mask16 mask, std::uint32_t* to, const Places<F16>& at, I16 value) {
+  _mm256_mask_storeu_epi32(to + at.of[0], static_cast<__mmask8>(mask.bits),
+                           _mm512_castsi512_si256((__m512i)value));
+  _mm256_mask_storeu_epi32(to + at.of[1], static_cast<__mmask8>(mask.bits >> 8),
+                           _mm512_extracti32x8_epi32((__m512i)value, 1));
+}
 inline float MaxOf(F16 a) { return _mm512_reduce_max_ps(a); }
 inline float MinOf(F16 a) { return _mm512_reduce_min_ps(a); }
 inline F16 PowerOfTwo(I16 n) {

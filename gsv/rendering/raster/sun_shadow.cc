@@ -152,12 +152,11 @@ void SunShadow::DrawCaster(const Caster& caster, const Band& band, Rasteriser& r
         // Moves the depth away from the sun by its change over a texel, so that no surface shades
         // itself.
         c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
-        Scan<F8>(t, part, [&](int x, int y, I8 covered, F8) {
-          const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
-          const float dy = static_cast<float>(y) - t.y0;
+        Scan<F8>(t, part, [&](const Pixels<F8>& pixels, I8 covered, F8) {
+          const F8 dx = pixels.ColumnsFrom(t.x0), dy = pixels.RowsFrom(t.y0);
           if (holes != nullptr) covered &= Solid(t, mesh, *holes, dx, dy);
-          const F8 z = Fma(Splat(a), dx, Splat(c + b * dy));
-          float* at = &map[static_cast<std::size_t>(kFirst + std::ptrdiff_t{kStride} * y + x)];
+          const F8 z = Fma(Splat(a), dx, Splat(c) + Splat(b) * dy);
+          float* at = &map[kFirst + pixels.In(kStride).of[0]];
           const F8 old = Load(at);
           Store(at, Select(covered & (z > old), z, old));
         });

@@ -46,7 +46,7 @@ class SunShadow {
     const auto is_lit = AtLeast(z, range.max), is_shaded = Less(z, range.min);
     const auto open = AnyOfEight(needed & ~(is_lit | is_shaded));
     const F bound = Select(is_lit, Splat<F>(1), Splat<F>(0));
-    if (Bits(open) == 0) return bound;
+    if (!Any(open)) return bound;
     const F first = Lit(inside(x - Splat<F>(0.6f)), inside(y - Splat<F>(0.3f)), z);
     const F second = Lit(inside(x + Splat<F>(0.6f)), inside(y + Splat<F>(0.3f)), z);
     const F found = Splat<F>(0.5f) * (first + second);

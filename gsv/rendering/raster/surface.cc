@@ -27,7 +27,7 @@ TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
   store(t.a, s.a), store(t.b, s.b), store(t.c, s.c);
   s.x0 = t.x0, s.y0 = t.y0;
   const I8 differs = ~((corners[0] == corners[1]) & (corners[0] == corners[2]));
-  s.is_flat = Bits(differs & is_normal) == 0;
+  s.is_flat = !Any(differs & is_normal);
   if (s.is_flat) {
     float n[8];
     Store(n, corners[0]);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "gsv/rendering/raster/pixels.h"
 #include "gsv/rendering/raster/raster_texture.h"
 #include "gsv/rendering/raster/rasteriser.h"
 #include "gsv/rendering/raster/reflector.h"
@@ -20,8 +21,8 @@ struct TriangleSurface {
 
   // Returns the values at pixels that are dx and dy away from (x0, y0).
   template <class F>
-  F At(Plane i, F dx, float dy) const {
-    return Fma(Splat<F>(a[i]), dx, Splat<F>(c[i] + b[i] * dy));
+  F At(Plane i, F dx, F dy) const {
+    return Fma(Splat<F>(a[i]), dx, Splat<F>(c[i]) + Splat<F>(b[i]) * dy);
   }
 
   alignas(32) float a[8], b[8], c[8];  // elements 6 and 7 are not used
@@ -93,8 +94,10 @@ Three<F> Decoded(const Texels<F>& texel) {
 // `holes`. dx and dy are pixels from the triangle's x0 and y0.
 template <class F>
 typename Lanes<F>::Mask Solid(const Triangle& t, const RasterMesh& mesh, const RasterTexture& holes,
-                              F dx, float dy) {
-  const auto q = [&](int i) { return Fma(Splat<F>(t.a[i]), dx, Splat<F>(t.c[i] + t.b[i] * dy)); };
+                              F dx, F dy) {
+  const auto q = [&](int i) {
+    return Fma(Splat<F>(t.a[i]), dx, Splat<F>(t.c[i]) + Splat<F>(t.b[i]) * dy);
+  };
   const F q0 = q(0), q1 = q(1), q2 = q(2);
   const F w = Splat<F>(1) / (q0 + q1 + q2);
   const F second = q1 * w, third = q2 * w;  // the weights of these corners
@@ -147,39 +150,42 @@ inline constexpr std::array<float, 256> kMiddles = [] {
   return middles;
 }();
 
-// Returns the middle of those lanes of each group of eight that are set in `lanes`, relative to the
-// first lane of the vector: in lane n for the n-th group. A group without such lanes gets its first
-// lane.
+// Returns the middle of those lanes of each group that are set in `lanes`, relative to the first lane
+// of the group: in lane n for the n-th group. A group without such lanes gets its first lane.
 template <class F>
 F8 MiddlesOf(int lanes) {
-  F8 middles{};
-  for (int i = 0; i < Lanes<F>::kCount / 8; ++i) {
-    middles[i] =
-        static_cast<float>(8 * i) + kMiddles[static_cast<std::size_t>(lanes >> 8 * i & 0xff)];
+  float middles[Lanes<F>::kGroups];
+  for (int i = 0; i < Lanes<F>::kGroups; ++i) {
+    middles[i] = kMiddles[static_cast<std::size_t>(lanes >> 8 * i & 0xff)];
   }
-  return middles;
+  return OfGroups<F>(middles);
 }
 
-// Pixels from (x, y) to the right that see a triangle.
+// The pixels of a vector that see a triangle.
 template <class F>
 struct SeenPixels {
   // `lanes` has a bit for each pixel, set if it sees the triangle. At least one must be set.
-  SeenPixels(const TriangleSurface& of, int x, int y, int lanes)
+  SeenPixels(const TriangleSurface& of, const Pixels<F>& at, int lanes)
       : surface(of),
+        pixels(at),
         seen(lanes),
-        first_dx(static_cast<float>(x) - of.x0),
-        dx(Splat<F>(first_dx) + Steps<F>()),
-        dy(static_cast<float>(y) - of.y0),
+        dx(at.ColumnsFrom(of.x0)),
+        dy(at.RowsFrom(of.y0)),
         w(Splat<F>(1) / of.At(TriangleSurface::kInverseW, dx, dy)) {}
 
   // Looks up a texture at the pixels. Eight pixels have one level of detail: that at the middle of
   // those of them that see the triangle.
   Texels<F> Look(const RasterTexture& texture) const {
     using Plane = PlaneLanes<F8>;
+    float first_dx[Lanes<F>::kGroups], group_dy[Lanes<F>::kGroups];
+    for (int i = 0; i < Lanes<F>::kGroups; ++i) {
+      first_dx[i] = static_cast<float>(pixels.x[i]) - surface.x0;
+      group_dy[i] = static_cast<float>(pixels.y[i]) - surface.y0;
+    }
     const F8 levels =
         LevelsAt<F8>(Plane(surface, TriangleSurface::kInverseW),
                      Plane(surface, TriangleSurface::kU), Plane(surface, TriangleSurface::kV),
-                     Splat(first_dx) + MiddlesOf<F>(seen), Splat(dy), texture);
+                     OfGroups<F>(first_dx) + MiddlesOf<F>(seen), OfGroups<F>(group_dy), texture);
     const MipLevels<F8> of_groups(texture, levels);
     return Sample(texture, MipLevels<F>{ByGroup<F>(of_groups.fine), ByGroup<F>(of_groups.share)},
                   surface.At(TriangleSurface::kU, dx, dy) * w,
@@ -187,10 +193,9 @@ struct SeenPixels {
   }
 
   const TriangleSurface& surface;
+  const Pixels<F>& pixels;
   int seen;
-  float first_dx;
-  F dx;      // distance from the triangle's x0
-  float dy;  // distance from the triangle's y0
+  F dx, dy;  // distances from the triangle's x0 and y0
   F w;       // distance along the view
 };
 

@@ -15,34 +15,17 @@ template <class F>
 class VectorPixelLoops final : public PixelLoops {
   using Ints = typename Lanes<F>::Ints;
   using Mask = typename Lanes<F>::Mask;
-  static constexpr int kLanes = Lanes<F>::kCount;
+  static constexpr int kLanes = Lanes<F>::kCount, kGroups = Lanes<F>::kGroups;
 
  public:
   void Begin(const ImageInProgress& image) override { image_ = image; }
 
   bool Cover(const Drawn& drawn, const Triangle& t, const Box& box, bool crosses_near,
              std::uint32_t id, float back) override {
-    const bool has_holes = drawn.group->blending == Blending::kAlphaMask;
-    const auto* texture = static_cast<const RasterTexture*>(drawn.group->base_colour.get());
-    const F factor = Splat<F>(back), max = Splat<F>(image_.nearest_inverse_w);
-    const Ints number = SplatInt<F>(static_cast<std::int32_t>(id));
-    bool is_seen = false;
-    Scan<F>(t, box, [&](int x, int y, Mask covered, F inverse_w) {
-      const std::size_t at = At(x, y);
-      const F old = Load<F>(&image_.inverse_w[at]), moved = inverse_w * factor;
-      Mask visible = covered & Less(old, moved);
-      if (crosses_near) visible = visible & AtLeast(max, inverse_w);
-      if (Bits(visible) == 0) return;
-      if (has_holes && texture != nullptr) {
-        visible = visible & Solid(t, *drawn.mesh, *texture,
-                                  Splat<F>(static_cast<float>(x) - t.x0) + Steps<F>(),
-                                  static_cast<float>(y) - t.y0);
-      }
-      StoreMasked(visible, &image_.inverse_w[at], moved, old);
-      StoreMaskedInt(visible, &image_.nearest[at], number);
-      is_seen = true;
-    });
-    return is_seen;
+    const bool has_holes =
+        drawn.group->blending == Blending::kAlphaMask && drawn.group->base_colour != nullptr;
+    return has_holes ? CoverAs<true>(drawn, t, box, crosses_near, id, back)
+                     : CoverAs<false>(drawn, t, box, crosses_near, id, back);
   }
 
   void BeginShading(const VisibleTriangles& visible, const FrameBlock& block,
@@ -57,11 +40,12 @@ class VectorPixelLoops final : public PixelLoops {
 
   TileToShade TileAt(int x0, int y0, int x1, int y1) const override {
     F max_lanes = Splat<F>(0), min_lanes = Splat<F>(1e30f);  // the extremes of 1/w in the tile
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; x += kLanes) {
-        const Mask seen = ~EqualInt(LoadInts<F>(&image_.nearest[At(x, y)]), SplatInt<F>(0)) &
-                          LessInt(IntSteps<F>(), SplatInt<F>(x1 - x));
-        const F inverse_w = Load<F>(&image_.inverse_w[At(x, y)]);
+    for (int y = y0; y < y1; y += kGroups) {
+      for (int x = x0; x < x1; x += 8) {
+        const Places<F> at = PixelsAt(x, y).In(Stride());
+        const Mask seen = ~EqualInt(LoadGroupInts<F>(image_.nearest, at), SplatInt<F>(0)) &
+                          MaskOf<F>(Inside(x1 - x, y1 - y));
+        const F inverse_w = LoadGroups<F>(image_.inverse_w, at);
         max_lanes = Max(max_lanes, Select(seen, inverse_w, max_lanes));
         min_lanes = Min(min_lanes, Select(seen, inverse_w, min_lanes));
       }
@@ -85,8 +69,8 @@ class VectorPixelLoops final : public PixelLoops {
 
   void Shade(const TileToShade& tile) override {
     const Lamps<F> lamps = tile.is_empty ? Lamps<F>() : light_->Reaching(tile.min, tile.max);
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; x += kLanes) Shade(lamps, x, y);
+    for (int y = tile.y0; y < tile.y1; y += kGroups) {
+      for (int x = tile.x0; x < tile.x1; x += 8) Shade(lamps, x, y);
     }
   }
 
@@ -100,24 +84,29 @@ class VectorPixelLoops final : public PixelLoops {
   void Blend(const Triangle& t, const Box& box) override {
     const TriangleSurface surface = SurfaceOf(*blended_, t);
     const F near = Splat<F>(image_.nearest_inverse_w);
-    Scan<F>(t, box, [&](int x, int y, Mask covered, F inverse_w) {
-      const int left = image_.width - x;
-      const Mask in_image = LessInt(IntSteps<F>(), SplatInt<F>(left));
-      const Mask visible = covered & in_image & AtLeast(near, inverse_w) &
-                           Less(Load<F>(&image_.inverse_w[At(x, y)]), inverse_w);
+    Scan<F>(t, box, [&](const Pixels<F>& pixels, Mask covered, F inverse_w) {
+      const Mask visible = covered &
+                           Less(pixels.ColumnsFrom(0), Splat<F>(static_cast<float>(image_.width))) &
+                           AtLeast(near, inverse_w) &
+                           Less(LoadGroups<F>(image_.inverse_w, pixels.In(Stride())), inverse_w);
       const int seen = Bits(visible);
       if (seen == 0) return;
-      MarkBlended(x, y), MarkBlended(std::min(x + kLanes, image_.width) - 1, y);
-      const Three<F> ray = RayAt(x, y);
-      SeenPlanes<F> planes(x, y);
+      const Three<F> ray = RaysOf(pixels);
+      SeenPlanes<F> planes(pixels);
       SeenItems<F> items;
       planes.Set(MaskOf<F>(kAll), surface, HasTextures(*blended_->group), seen);
       items.Set(MaskOf<F>(kAll), *blended_, t);
       const Surfaces<F> surfaces = SurfacesOf(planes, items, ray);
       const Ints above =
           Encoded(values_, light_->Colour(surfaces, ray, blended_lamps_, visible), SplatInt<F>(0));
-      std::uint32_t* to = image_.rgba + static_cast<std::size_t>(y) * image_.width + x;
-      const Ints below = LoadInts<F>(to);
+      Places<F> to{};  // groups without visible pixels may be outside of the image
+      for (int i = 0; i < kGroups; ++i) {
+        if ((seen >> 8 * i & 0xff) == 0) continue;
+        const int x = pixels.x[i], y = pixels.y[i];
+        MarkBlended(x, y), MarkBlended(std::min(x + 8, image_.width) - 1, y);
+        to.of[i] = pixels.In(static_cast<std::size_t>(image_.width)).of[i];
+      }
+      const Ints below = LoadGroupInts<F>(image_.rgba, to);
       // The alpha channel keeps the number of the opaque surface.
       Ints mixed = below & SplatInt<F>(static_cast<std::int32_t>(0xff000000u));
       for (int shift = 0; shift < 24; shift += 8) {
@@ -125,11 +114,63 @@ class VectorPixelLoops final : public PixelLoops {
                 b = ToFloat((below >> shift) & SplatInt<F>(0xff));
         mixed |= Truncated(Fma(a - b, surfaces.alpha, b + Splat<F>(0.5f))) << shift;
       }
-      StoreInt(to, SelectInt(visible, mixed, below));
+      StoreGroupInts(visible, image_.rgba, to, mixed);
     });
   }
 
  private:
+  // See Cover(). kHoles says whether the item has a texture with holes.
+  template <bool kHoles>
+  bool CoverAs(const Drawn& drawn, const Triangle& t, const Box& box, bool crosses_near,
+               std::uint32_t id, float back) {
+    const F factor = Splat<F>(back), max = Splat<F>(image_.nearest_inverse_w);
+    const Ints number = SplatInt<F>(static_cast<std::int32_t>(id));
+    float* const depths = image_.inverse_w;
+    std::uint32_t* const nearest = image_.nearest;
+    const auto stride = static_cast<std::size_t>(image_.stride);
+    bool is_seen = false;
+    Scan<F>(t, box, [&](const Pixels<F>& pixels, Mask covered, F inverse_w) {
+      const Places<F> at = pixels.In(stride);
+      const F old = LoadGroups<F>(depths, at), moved = inverse_w * factor;
+      Mask visible = covered & Less(old, moved);
+      if (crosses_near) visible = visible & AtLeast(max, inverse_w);
+      if (!Any(visible)) return;
+      if (kHoles) {
+        const auto& holes = static_cast<const RasterTexture&>(*drawn.group->base_colour);
+        visible =
+            visible & Solid(t, *drawn.mesh, holes, pixels.ColumnsFrom(t.x0), pixels.RowsFrom(t.y0));
+      }
+      StoreGroups(visible, depths, at, moved);
+      StoreGroupInts(visible, nearest, at, number);
+      is_seen = true;
+    });
+    return is_seen;
+  }
+
+  // The numbers of the triangles that the pixels of a vector see.
+  struct Ids {
+    Ids(const std::uint32_t* nearest, const Places<F>& at) : all(LoadGroupInts<F>(nearest, at)) {
+      StoreAllGroups(of, Consecutive(), all);
+    }
+    // Returns the number in the lowest of these lanes. At least one must be set.
+    std::uint32_t FirstOf(int lanes) const {
+      return of[__builtin_ctz(static_cast<unsigned>(lanes))];
+    }
+    // Returns the lanes that see triangle number `id`.
+    int LanesOf(std::uint32_t id) const {
+      return Bits(EqualInt(all, SplatInt<F>(static_cast<std::int32_t>(id))));
+    }
+
+    Ints all;
+    alignas(64) std::uint32_t of[kLanes];
+  };
+  // The places of the groups of a vector in an array with an element for each lane.
+  static Places<F> Consecutive() {
+    Places<F> places;
+    for (int i = 0; i < kGroups; ++i) places.of[i] = static_cast<std::size_t>(8 * i);
+    return places;
+  }
+
   // The surface of a triangle. If the material is even and the normal constant, the last members are
   // set.
   struct alignas(64) Surface {
@@ -181,41 +222,43 @@ class VectorPixelLoops final : public PixelLoops {
     return surface;
   }
 
-  // Shades the pixels of a vector from (x, y) to the right.
+  // Shades the pixels of a vector that begins at (x, y).
   void Shade(const Lamps<F>& lamps, int x, int y) {
-    const std::uint32_t* nearest = image_.nearest + static_cast<std::size_t>(y) * image_.stride + x;
-    const Ints ids = LoadInts<F>(nearest);
-    const Three<F> ray = RayAt(x, y);
-    const int left = image_.width - x;
-    const int in_image = left >= kLanes ? kAll : (1 << left) - 1;
-    const Mask is_sky = EqualInt(ids, SplatInt<F>(0));
-    const Mask used = ~is_sky & LessInt(IntSteps<F>(), SplatInt<F>(left));
+    const Pixels<F> pixels = PixelsAt(x, y);
+    const Ids ids(image_.nearest, pixels.In(Stride()));
+    const Three<F> ray = RaysOf(pixels);
+    const int in_image = Inside(image_.width - x, image_.height - y);
+    const Mask is_sky = EqualInt(ids.all, SplatInt<F>(0));
+    const Mask used = ~is_sky & MaskOf<F>(in_image);
     const int seen = Bits(used);
     Three<F> colour = Splat<F>(0, 0, 0);
     Ints number = SplatInt<F>(0);
     if (seen != 0) {
-      const std::uint32_t first = nearest[__builtin_ctz(static_cast<unsigned>(seen))];
-      const Mask sees_first = EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(first)));
+      const std::uint32_t first = ids.FirstOf(seen);
+      const int sees_first = ids.LanesOf(first);
       const Surface& surface = SurfaceFor(first);
-      if (surface.is_even && (seen & ~Bits(sees_first)) == 0) {
-        const SeenPixels<F> pixels(surface.triangle, x, y, InGroups(Bits(sees_first), left));
-        colour = EvenColour(surface, pixels, ray, lamps, used);
+      if (surface.is_even && (seen & ~sees_first) == 0) {
+        const SeenPixels<F> seen_pixels(surface.triangle, pixels, sees_first);
+        colour = EvenColour(surface, seen_pixels, ray, lamps, used);
         number = SplatInt<F>(surface.triangle.number);
       } else {
-        colour = MixedColour(nearest, ids, seen, x, y, ray, lamps, used, number);
+        colour = MixedColour(ids, seen, pixels, ray, lamps, used, number);
       }
     }
     if (seen != in_image) colour = Select(is_sky, light_->Sky(ray), colour);
     const Ints rgba = Encoded(values_, colour, SelectInt(is_sky, SplatInt<F>(0), number));
-    std::uint32_t* to = image_.rgba + static_cast<std::size_t>(y) * image_.width + x;
+    const Places<F> to = pixels.In(static_cast<std::size_t>(image_.width));
     if (in_image == kAll) {
-      StoreInt(to, rgba);
+      StoreAllGroups(image_.rgba, to, rgba);
     } else {
       // The last pixels of a row: the next row must not be written, not even with its own values,
       // because another thread may draw it now.
       std::uint32_t last[kLanes];
-      StoreInt(last, rgba);
-      std::copy_n(last, left, to);
+      StoreAllGroups(last, Consecutive(), rgba);
+      for (int left = in_image; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(static_cast<unsigned>(left));
+        image_.rgba[to.of[lane / 8] + static_cast<std::size_t>(lane % 8)] = last[lane];
+      }
     }
   }
 
@@ -236,18 +279,18 @@ class VectorPixelLoops final : public PixelLoops {
   }
 
   // Returns the colours of pixels that see any triangles, and sets the numbers of their surfaces.
-  Three<F> MixedColour(const std::uint32_t* nearest, Ints ids, int seen, int x, int y,
-                       const Three<F>& ray, const Lamps<F>& lamps, Mask used, Ints& number) {
-    SeenPlanes<F> planes(x, y);
+  Three<F> MixedColour(const Ids& ids, int seen, const Pixels<F>& pixels, const Three<F>& ray,
+                       const Lamps<F>& lamps, Mask used, Ints& number) {
+    SeenPlanes<F> planes(pixels);
     SeenItems<F> items;
     bool is_first = true;
     for (int left = seen; left != 0;) {
-      const std::uint32_t id = nearest[__builtin_ctz(static_cast<unsigned>(left))];
-      const int lanes = Bits(EqualInt(ids, SplatInt<F>(static_cast<std::int32_t>(id))));
+      const std::uint32_t id = ids.FirstOf(left);
+      const int lanes = ids.LanesOf(id);
       const Surface& surface = SurfaceFor(id);
       // The first triangle fills all lanes, so that the other lanes have valid values.
-      const Mask mask = MaskOf<F>(is_first ? kAll : WithIdleLanes(lanes, nearest, seen, id));
-      planes.Set(mask, surface.triangle, surface.has_textures, InGroups(lanes, image_.width - x));
+      const Mask mask = MaskOf<F>(is_first ? kAll : WithIdleLanes(lanes, ids, seen, id));
+      planes.Set(mask, surface.triangle, surface.has_textures, lanes);
       items.Set(mask, *surface.drawn, *surface.of);
       is_first = false;
       left &= ~lanes;
@@ -268,30 +311,40 @@ class VectorPixelLoops final : public PixelLoops {
     return surfaces;
   }
 
-  // Adds the lanes that see nothing to the lanes that see triangle number `id`, in those groups of
-  // eight lanes in which it is the first triangle. So a group has the same values as if it were shaded
-  // alone (see LightModel::AddLamp()).
-  static int WithIdleLanes(int lanes, const std::uint32_t* nearest, int seen, std::uint32_t id) {
+  // Adds the lanes that see nothing to the lanes that see triangle number `id`, in those groups in
+  // which it is the first triangle. So a group has the same values as if it were shaded alone (see
+  // LightModel::AddLamp()).
+  static int WithIdleLanes(int lanes, const Ids& ids, int seen, std::uint32_t id) {
     for (int first = 0; first < kLanes; first += 8) {
-      const auto in_group = static_cast<unsigned>(seen >> first & 0xff);
-      if (in_group == 0 || nearest[first + __builtin_ctz(in_group)] != id) continue;
-      lanes |= static_cast<int>((~in_group & 0xff) << first);
+      const int in_group = seen & 0xff << first;
+      if (in_group == 0 || ids.FirstOf(in_group) != id) continue;
+      lanes |= ~seen & 0xff << first;
     }
     return lanes;
   }
 
-  // Leaves out the lanes of those groups of eight that are beyond the end of the row, which has
-  // `left` more pixels.
-  static int InGroups(int lanes, int left) {
-    return kLanes == 16 && left <= 8 ? lanes & 0xff : lanes;
+  // The vector that begins at (x, y). Its groups are below each other.
+  static Pixels<F> PixelsAt(int x, int y) {
+    Pixels<F> pixels;
+    for (int i = 0; i < kGroups; ++i) pixels.x[i] = x, pixels.y[i] = y + i;
+    return pixels;
   }
 
-  // Returns the directions of the rays through the pixels from (x, y) to the right.
-  Three<F> RayAt(int x, int y) const {
-    const F px = Splat<F>(static_cast<float>(x)) + Steps<F>();
-    const float py = static_cast<float>(y);
+  // Returns the lanes of such a vector that are inside an area which has so many columns and rows from
+  // its first pixel on.
+  static int Inside(int columns, int rows) {
+    const int in_group = columns >= 8 ? 0xff : (1 << columns) - 1;
+    int lanes = in_group;
+    for (int i = 1; i < std::min(kGroups, rows); ++i) lanes |= in_group << 8 * i;
+    return lanes;
+  }
+
+  // Returns the directions of the rays through the pixels.
+  Three<F> RaysOf(const Pixels<F>& pixels) const {
+    const F px = pixels.ColumnsFrom(0), py = pixels.RowsFrom(0);
     const auto part = [&](std::size_t i) {
-      return Fma(Splat<F>(image_.right[i]), px, Splat<F>(image_.forward[i] + image_.down[i] * py));
+      return Fma(Splat<F>(image_.right[i]), px,
+                 Splat<F>(image_.forward[i]) + Splat<F>(image_.down[i]) * py);
     };
     return {part(0), part(1), part(2)};
   }
@@ -304,11 +357,7 @@ class VectorPixelLoops final : public PixelLoops {
     image_.is_blended[y / kTileHeight * columns + x / kTileWidth] = 1;
   }
 
-  // The index of pixel (x, y).
-  std::size_t At(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.stride) +
-           static_cast<std::size_t>(x);
-  }
+  std::size_t Stride() const { return static_cast<std::size_t>(image_.stride); }
 
   ImageInProgress image_;
   VisibleTriangles visible_;
