@@ -39,5 +39,12 @@ function(gsv_idl_library TARGET)
   add_library(${TARGET} STATIC ${SOURCES})
   target_include_directories(${TARGET} SYSTEM PUBLIC ${CMAKE_BINARY_DIR}/generated ${OUT})
   target_compile_options(${TARGET} PRIVATE -w)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+    # All stubs are compiled as one file. Each of them defines a constant of this name.
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
+      UNITY_BUILD_UNIQUE_ID GSV_STUB
+      UNITY_BUILD_CODE_BEFORE_INCLUDE "#define _0RL_library_version GSV_STUB"
+      UNITY_BUILD_CODE_AFTER_INCLUDE "#undef _0RL_library_version")
+  endif()
   target_link_libraries(${TARGET} PUBLIC PkgConfig::OMNIORB)
 endfunction()

@@ -36,15 +36,15 @@ endfunction()
 # compiles each file alone, which detects a missing include and rebuilds faster.
 #
 # gsv_compile_in_groups(TARGET FILE[@GROUP] …) groups the target's sources in the order in which they
-# are listed. A file with @GROUP (such as @json) is in the group of this name. Such groups contain files
-# that share the slowest headers (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and
-# gsv_test call this function with their SOURCES. A group contains the files of GSV_FILES_A_GROUP
-# (otherwise 20) places in the list. Larger groups take less time in total, but more names must differ.
+# are listed. A file with @GROUP (such as @beast) is in the group of this name, and the others are in
+# one group. Named groups limit the memory that the compiler needs. gsv_library and gsv_test call this
+# function with their SOURCES. If GSV_FILES_A_GROUP is set, a group has the files of so many places in
+# the list. Larger groups take less time in total, but more names must differ.
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
   endif()
-  set(FILES_A_GROUP 20)
+  set(FILES_A_GROUP 1000)
   if(GSV_FILES_A_GROUP)
     set(FILES_A_GROUP ${GSV_FILES_A_GROUP})
   endif()
@@ -100,14 +100,13 @@ function(gsv_test_helper)
   endforeach()
 endfunction()
 
-# gsv_library(NAME SOURCES FILE[@GROUP] … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …] [FILES_A_GROUP n])
+# gsv_library(NAME SOURCES FILE[@GROUP] … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
 #
 # Adds the static library gsv_NAME with the alias gsv::NAME. Path, include and target agree:
 # the folder gsv/NAME is included as "gsv/NAME/…" from the repository root. Each header is
 # compiled alone by the target all_verify_interface_header_sets.
 function(gsv_library NAME)
-  cmake_parse_arguments(ARG "" "FILES_A_GROUP" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
-  set(GSV_FILES_A_GROUP ${ARG_FILES_A_GROUP})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   if(ARG_SOURCES)
     gsv_without_groups(FILES ${ARG_SOURCES})
     add_library(gsv_${NAME} STATIC ${FILES})
@@ -181,6 +180,7 @@ function(gsv_test NAME)
   target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${NAME} PRIVATE "${GSV_TEST_OPTIONS}")
   gsv_precompile(${NAME} test)
+  set(GSV_FILES_A_GROUP 20)
   gsv_compile_in_groups(${NAME} ${ARG_SOURCES})
   set_target_properties(${NAME} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -48,7 +48,7 @@ std::string Joined(std::initializer_list<double> numbers) {
   return text;
 }
 
-const char* TextOf(const XMLElement& element, const char* child) {
+const char* ChildText(const XMLElement& element, const char* child) {
   const XMLElement* const found = element.FirstChildElement(child);
   const char* const text = found == nullptr ? nullptr : found->GetText();
   return text == nullptr ? "" : text;
@@ -166,7 +166,7 @@ class WorldWriter {
 
   // Returns the file to which an <include> refers; empty if it is not found.
   fs::path FileOfInclude(const XMLElement& include) const {
-    auto found = finder_.Find(TextOf(include, "uri"), original_.source);
+    auto found = finder_.Find(ChildText(include, "uri"), original_.source);
     if (!found) return {};
     std::error_code ignored;
     if (!fs::is_directory(*found, ignored)) return *found;
@@ -177,7 +177,7 @@ class WorldWriter {
   std::string NameOfInclude(const XMLElement& include) const {
     const fs::path file = FileOfInclude(include);
     if (file.empty()) return {};
-    const std::string name = TextOf(include, "name");
+    const std::string name = ChildText(include, "name");
     for (const PlacedModel& placed : original_.models) {
       std::error_code ignored;
       if (!fs::equivalent(file, xacro::FilePart(placed.model->source), ignored)) continue;
@@ -199,10 +199,10 @@ class WorldWriter {
       if (kind == "model" || kind == "actor") {
         const char* const name = child->Attribute("name");
         Name(name == nullptr ? "unnamed" : name, *child);
-      } else if (kind == "include" && !finder_.Find(TextOf(*child, "uri"), original_.source)) {
-        const std::string_view text = BuiltInModel(TextOf(*child, "uri"));
+      } else if (kind == "include" && !finder_.Find(ChildText(*child, "uri"), original_.source)) {
+        const std::string_view text = BuiltInModel(ChildText(*child, "uri"));
         if (text.find("<model") == std::string_view::npos) continue;
-        const std::string name = TextOf(*child, "name");
+        const std::string name = ChildText(*child, "name");
         Name(name.empty() ? "ground_plane" : name, *child);
       }
     }

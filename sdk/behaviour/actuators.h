@@ -35,7 +35,7 @@ class Lamp : public Sensor {
     return Set(colour, brightness);
   }
   // Returns the present colour and brightness.
-  Glow Read() { return MeasureAs<Glow>(); }
+  Glow Read();
   [[deprecated("use Read()")]] Glow Look() { return Read(); }
 };
 
@@ -53,7 +53,7 @@ class Gripper : public Sensor {
   // Opens the fingers and detaches the body.
   base::Status Open() { return port().CommandDevice({1}, {}); }
   // Returns the present state of the fingers.
-  State Read() { return MeasureAs<State>(); }
+  State Read();
   [[deprecated("use Grasp()")]] base::Status Grip() { return Grasp(); }
   [[deprecated("use Open()")]] base::Status LetGo() { return Open(); }
   [[deprecated("use Read()")]] State Feel() { return Read(); }
@@ -80,7 +80,7 @@ class Speaker : public Sensor {
   // Ends the present sound.
   base::Status Silence() { return Play("tone", 20, 0, 0); }
   // Returns the sound that is being played.
-  Sound Playing() { return MeasureAs<Sound>(); }
+  Sound Playing();
 };
 
 // Measures the sound level at its place, and the loudest sound.
@@ -92,7 +92,7 @@ class Microphone : public Sensor {
   // The loudest sound, and the sound level.
   using Hearing = readings::Microphone;
   // Returns the loudest sound, and the sound level.
-  Hearing Listen() { return MeasureAs<Hearing>(); }
+  Hearing Listen();
 };
 
 }  // namespace gsv

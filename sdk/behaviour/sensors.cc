@@ -37,6 +37,34 @@ const std::vector<double>& Lidar::Ranges() {
   return ranges_;
 }
 
+Placement PositioningSystem::Locate() {
+  return MeasureAs<readings::Positioning>().world_from_sensor;
+}
+
+Imu::Motion Imu::Read() { return MeasureAs<Motion>(); }
+
+Odometer::Estimate Odometer::Read() { return MeasureAs<Estimate>(); }
+
+GnssReceiver::Position GnssReceiver::Fix() { return MeasureAs<Position>(); }
+
+Vector Magnetometer::Field() { return MeasureAs<readings::Magnetometer>().field; }
+
+Altimeter::Height Altimeter::Measured() { return MeasureAs<Height>(); }
+
+std::vector<Bumper::Touch> Bumper::Touches() { return MeasureAs<readings::Contact>().touches; }
+
+ForceTorque::Wrench ForceTorque::Read() { return MeasureAs<readings::ForceTorque>(); }
+
+std::vector<JointEncoders::Joint> JointEncoders::Joints() {
+  return MeasureAs<readings::JointEncoders>().joints;
+}
+
+Battery::Charge Battery::Level() { return MeasureAs<Charge>(); }
+
+std::vector<LogicalCamera::Sighting> LogicalCamera::Read() {
+  return MeasureAs<readings::LogicalCamera>().sightings;
+}
+
 std::vector<Radio::Message> Radio::Receive() {
   std::vector<Message> messages;
   for (const readings::HeardMessage& heard : MeasureAs<readings::Radio>().messages) {
@@ -48,6 +76,38 @@ std::vector<Radio::Message> Radio::Receive() {
         {heard.sender, *std::move(content), base::FromSeconds(heard.sent), heard.strength});
   }
   return messages;
+}
+
+double Ranging::Distance() { return MeasureAs<readings::Ranging>().distance; }
+
+DepthCamera::Image DepthCamera::TakeDepth() {
+  const auto image = MeasureAs<readings::DepthImage>();
+  return {image.width, image.height, {image.depth.begin(), image.depth.end()}};
+}
+
+SegmentationCamera::Image SegmentationCamera::Segment() {
+  const auto image = MeasureAs<readings::SegmentedImage>();
+  return {image.width,
+          image.height,
+          {image.pixels.begin(), image.pixels.end()},
+          {image.names.begin(), image.names.end()}};
+}
+
+ThermalCamera::Image ThermalCamera::TakeTemperatures() {
+  const auto image = MeasureAs<readings::ThermalImage>();
+  return {image.width,
+          image.height,
+          image.resolution,
+          {image.temperature.begin(), image.temperature.end()}};
+}
+
+NormalsCamera::Image NormalsCamera::TakeNormals() {
+  const auto image = MeasureAs<readings::NormalImage>();
+  return {image.width, image.height, {image.normals.begin(), image.normals.end()}};
+}
+
+std::vector<BoundingBoxCamera::Box> BoundingBoxCamera::Detect() {
+  return MeasureAs<readings::BoundingBoxes>().boxes;
 }
 
 }  // namespace gsv

@@ -184,7 +184,7 @@ class PositioningSystem : public Sensor {
   using Sensor::Sensor;
 
   // Returns the pose of the sensor in the world.
-  Placement Locate() { return MeasureAs<readings::Positioning>().world_from_sensor; }
+  Placement Locate();
 };
 
 // Measures angular velocity and specific force in the sensor frame.
@@ -195,7 +195,7 @@ class Imu : public Sensor {
 
   using Motion = readings::Imu;
   // Returns angular velocity and specific force.
-  Motion Read() { return MeasureAs<Motion>(); }
+  Motion Read();
   [[deprecated("use Read()")]] Motion Feel() { return Read(); }
 };
 
@@ -207,7 +207,7 @@ class Odometer : public Sensor {
 
   using Estimate = readings::Odometry;
   // Returns the estimate.
-  Estimate Read() { return MeasureAs<Estimate>(); }
+  Estimate Read();
   [[deprecated("use Read()")]] Estimate Reckon() { return Read(); }
 };
 
@@ -219,7 +219,7 @@ class GnssReceiver : public Sensor {
 
   using Position = readings::Navsat;
   // Returns position and velocity.
-  Position Fix() { return MeasureAs<Position>(); }
+  Position Fix();
 };
 using SatelliteReceiver [[deprecated("use gsv::GnssReceiver")]] = GnssReceiver;
 
@@ -230,7 +230,7 @@ class Magnetometer : public Sensor {
   using Sensor::Sensor;
 
   // Returns the magnetic field.
-  Vector Field() { return MeasureAs<readings::Magnetometer>().field; }
+  Vector Field();
 };
 
 // Measures the height above a reference height, and the vertical velocity. The reference is the
@@ -242,7 +242,7 @@ class Altimeter : public Sensor {
 
   using Height = readings::Altimeter;
   // Returns height and vertical speed.
-  Height Measured() { return MeasureAs<Height>(); }
+  Height Measured();
 };
 
 // Reports the contacts of the robot with other bodies.
@@ -255,7 +255,7 @@ class Bumper : public Sensor {
   // Whether there is a contact.
   bool IsPressed() { return !Touches().empty(); }
   // Returns the present contacts.
-  std::vector<Touch> Touches() { return MeasureAs<readings::Contact>().touches; }
+  std::vector<Touch> Touches();
 };
 
 // Measures the force and the torque that a joint transmits.
@@ -266,7 +266,7 @@ class ForceTorque : public Sensor {
 
   using Wrench = readings::ForceTorque;
   // Returns force and torque.
-  Wrench Read() { return MeasureAs<readings::ForceTorque>(); }
+  Wrench Read();
 };
 
 // Measures the positions and the velocities of the robot's joints.
@@ -277,7 +277,7 @@ class JointEncoders : public Sensor {
 
   using Joint = readings::EncodedJoint;
   // Returns a reading of each joint.
-  std::vector<Joint> Joints() { return MeasureAs<readings::JointEncoders>().joints; }
+  std::vector<Joint> Joints();
 };
 
 // Measures the charge of the robot's battery.
@@ -288,7 +288,7 @@ class Battery : public Sensor {
 
   using Charge = readings::Battery;
   // Returns the present charge.
-  Charge Level() { return MeasureAs<Charge>(); }
+  Charge Level();
 };
 
 // Lists the models in its field of view, with their poses.
@@ -300,7 +300,7 @@ class LogicalCamera : public Sensor {
   using Sighting = readings::Sighting;
   [[deprecated("use Read()")]] std::vector<Sighting> Look() { return Read(); }
   // Returns the visible models.
-  std::vector<Sighting> Read() { return MeasureAs<readings::LogicalCamera>().sightings; }
+  std::vector<Sighting> Read();
 };
 
 // Exchanges messages with other robots. A message arrives at radios in range with the next step.
@@ -344,7 +344,7 @@ class Ranging : public Sensor {
   using Sensor::Sensor;
 
   // Returns the distance in m; infinite if the anchor is not received.
-  double Distance() { return MeasureAs<readings::Ranging>().distance; }
+  double Distance();
 };
 
 // Measures the depth of each pixel.
@@ -359,10 +359,7 @@ class DepthCamera : public Sensor {
     std::vector<double> depth;
   };
   // Takes an image of depths.
-  Image TakeDepth() {
-    const auto image = MeasureAs<readings::DepthImage>();
-    return {image.width, image.height, {image.depth.begin(), image.depth.end()}};
-  }
+  Image TakeDepth();
 };
 
 // Labels each pixel with the model that it shows.
@@ -379,13 +376,7 @@ class SegmentationCamera : public Sensor {
     std::vector<std::string> names;
   };
   // Takes an image of labels.
-  Image Segment() {
-    const auto image = MeasureAs<readings::SegmentedImage>();
-    return {image.width,
-            image.height,
-            {image.pixels.begin(), image.pixels.end()},
-            {image.names.begin(), image.names.end()}};
-  }
+  Image Segment();
 };
 
 // Measures the temperature of each pixel.
@@ -400,13 +391,7 @@ class ThermalCamera : public Sensor {
     // in K, in rows from the top, in whole steps of the resolution
     std::vector<double> temperature;
   };
-  Image TakeTemperatures() {
-    const auto image = MeasureAs<readings::ThermalImage>();
-    return {image.width,
-            image.height,
-            image.resolution,
-            {image.temperature.begin(), image.temperature.end()}};
-  }
+  Image TakeTemperatures();
 };
 
 // Measures the surface normal at each pixel.
@@ -421,10 +406,7 @@ class NormalsCamera : public Sensor {
     // surface, towards the camera, in the sensor frame, or NaN where the normal is unknown.
     std::vector<double> normals;
   };
-  Image TakeNormals() {
-    const auto image = MeasureAs<readings::NormalImage>();
-    return {image.width, image.height, {image.normals.begin(), image.normals.end()}};
-  }
+  Image TakeNormals();
 };
 
 // Finds the models in its image, with their bounding boxes.
@@ -435,7 +417,7 @@ class BoundingBoxCamera : public Sensor {
 
   using Box = readings::BoundingBox;
   // Returns the bounding boxes of the visible models.
-  std::vector<Box> Detect() { return MeasureAs<readings::BoundingBoxes>().boxes; }
+  std::vector<Box> Detect();
 };
 
 }  // namespace gsv

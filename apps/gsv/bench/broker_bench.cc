@@ -40,7 +40,7 @@ using nlohmann::ordered_json;
 constexpr int kClients = 64;
 constexpr const char* kType = "BenchRobot";
 constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
-constexpr std::size_t kShown = 10;  // maximum number of offers in the result of a query
+constexpr std::size_t kMaxFound = 10;  // maximum number of offers in the result of a query
 
 // Returns the ten properties of offer `n`, which depend on `n` only.
 std::vector<Property> PropertiesOf(std::uint32_t n) {
@@ -62,7 +62,7 @@ std::vector<Property> PropertiesOf(std::uint32_t n) {
 std::string Serial(std::uint32_t n) { return "serial == " + std::to_string(n); }
 
 // The broker calls that are measured. Any number of threads may make them at once.
-struct Target {
+struct BenchTarget {
   std::function<base::Status(int client, std::uint32_t number)> export_one;
   std::function<base::Status(int client, const std::string& constraint,
                              const std::string& preference)>
@@ -128,7 +128,7 @@ struct BrokerProcess {
 
 // Measures exports to a broker with a data file, which answers a call only when the offer is on the
 // disk.
-base::Status MeasureDurable(const Target& target, std::uint32_t offers,
+base::Status MeasureDurable(const BenchTarget& target, std::uint32_t offers,
                             const BrokerProcess& process, ordered_json& figures) {
   const double start = process.processor_time();
   const auto exported = CallFromThreads(kClients, offers, target.export_one);
@@ -139,7 +139,7 @@ base::Status MeasureDurable(const Target& target, std::uint32_t offers,
 }
 
 // Measures exports to a broker without a data file, and then queries for these offers.
-base::Status Measure(const Target& target, std::uint32_t offers, const BrokerProcess& process,
+base::Status Measure(const BenchTarget& target, std::uint32_t offers, const BrokerProcess& process,
                      ordered_json& figures) {
   const double before = process.bytes_used();
   const double export_start = process.processor_time();
@@ -181,7 +181,7 @@ base::Status ToStatus(const broker::TradingError& error) {
                     "the trader refused the call: " + error.detail);
 }
 
-Target TargetOf(broker::Trader& trader, const std::string& reference) {
+BenchTarget TargetOf(broker::Trader& trader, const std::string& reference) {
   return {.export_one = [&trader, reference](int, std::uint32_t n) -> base::Status {
             const auto id = trader.Export(kType, reference, PropertiesOf(n));
             return id ? base::Status() : ToStatus(id.error());
@@ -242,7 +242,7 @@ struct Remote {
   std::vector<broker::BrokerClient> clients{};
   CORBA::Object_var service{};
 
-  Target target() {
+  BenchTarget target() {
     return {.export_one = [this](int client, std::uint32_t n) -> base::Status {
               const auto id =
                   clients[static_cast<std::size_t>(client)].Export(kType, service, PropertiesOf(n));
@@ -251,7 +251,7 @@ struct Remote {
             .query = [this](int client, const std::string& constraint,
                             const std::string& preference) -> base::Status {
               const auto found = clients[static_cast<std::size_t>(client)].Query(
-                  kType, constraint, preference, kShown);
+                  kType, constraint, preference, kMaxFound);
               return found ? base::Status() : base::Fail(found.error());
             }};
   }

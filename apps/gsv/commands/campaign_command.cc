@@ -179,11 +179,11 @@ int ShowRun(const CampaignArguments& arguments) {
   return kOk;
 }
 
-using Arguments = std::shared_ptr<CampaignArguments>;
+using SharedArguments = std::shared_ptr<CampaignArguments>;
 
 // Adds `--engine`, the options that all job queues have, and the options of each engine. Returns
 // --engine.
-CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
+CLI::Option* AddEngineOptions(CLI::App* run, const SharedArguments& arguments) {
   EngineOptions& options = arguments->options;
   campaign::EngineRequest& engine = arguments->engine;
   std::vector<std::string> names;
@@ -218,7 +218,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       ->check(OneOf(names));
 }
 
-void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {
+void AddRunOptions(CLI::App* run, const SharedArguments& arguments, const CommandLine& line) {
   EngineOptions& options = arguments->options;
   run->add_option("-j,--jobs", options.jobs,
                   "runs in parallel (default: one per processor; with --broker: up to 64)\n"

@@ -31,7 +31,7 @@ constexpr const char* kControlGroup = "Commands to control running simulations";
 
 // Returns the JSON object that viewers get, with two more members: `server` at the start, and
 // `state_hash` at the end.
-std::string Json(const FoundSimulation& simulation) {
+std::string JsonText(const FoundSimulation& simulation) {
   const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
                                   {{"name", server.name},
@@ -108,7 +108,7 @@ int List(const Arguments& arguments) {
     std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
   for (const FoundSimulation& simulation : *simulations) {
     if (arguments.json) {
-      std::puts(Json(simulation).c_str());
+      std::puts(JsonText(simulation).c_str());
     } else {
       Print(simulation, arguments.lists_all);
     }
@@ -199,7 +199,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
     simulation->status.phase = Phase::kStopped;
   }
   if (arguments.json) {
-    std::puts(Json(*simulation).c_str());
+    std::puts(JsonText(*simulation).c_str());
   } else {
     Print(*simulation, arguments.lists_all);
   }

@@ -11,7 +11,7 @@
 namespace gsv::app {
 namespace {
 
-struct Row {
+struct RobotRow {
   const simulation::RobotStatus* robot;
   const RemoteHealth* health;  // null if the server does not report it
   health::State state = health::State::kMoving;
@@ -20,7 +20,7 @@ struct Row {
 
 // Returns the robot's state. If the server does not report the robot's health, derives the state
 // from the state of the behaviour.
-health::State StateOf(const Row& row) {
+health::State StateOf(const RobotRow& row) {
   if (row.health != nullptr) {
     return health::StateOf(row.health->state).value_or(health::State::kMoving);
   }
@@ -34,12 +34,13 @@ health::State StateOf(const Row& row) {
   }
 }
 
-std::vector<Row> RowsOf(const simulation::SimulationStatus& status,
-                        const std::map<std::string, RemoteHealth>& healths) {
-  std::vector<Row> rows;
+std::vector<RobotRow> RowsOf(const simulation::SimulationStatus& status,
+                             const std::map<std::string, RemoteHealth>& healths) {
+  std::vector<RobotRow> rows;
   for (const simulation::RobotStatus& robot : status.robots) {
     const auto found = healths.find(robot.name);
-    Row& row = rows.emplace_back(Row{&robot, found == healths.end() ? nullptr : &found->second});
+    RobotRow& row =
+        rows.emplace_back(RobotRow{&robot, found == healths.end() ? nullptr : &found->second});
     row.state = StateOf(row);
     const int level = row.health == nullptr ? 0 : row.health->level;
     row.severity = health::Severity(row.state, static_cast<health::Level>(level));
@@ -47,7 +48,7 @@ std::vector<Row> RowsOf(const simulation::SimulationStatus& status,
   return rows;
 }
 
-std::string LineOf(const Row& row, std::size_t name_width) {
+std::string LineOf(const RobotRow& row, std::size_t name_width) {
   const simulation::RobotStatus& robot = *row.robot;
   const std::string text = row.health == nullptr ? (robot.detail.empty() ? "" : ": " + robot.detail)
                                                  : "; the robot " + row.health->sentence;
@@ -56,7 +57,7 @@ std::string LineOf(const Row& row, std::size_t name_width) {
 }
 
 // Returns a line such as "  and 30 more robots: 29 move, 1 stands (--all lists them)".
-std::string RestOf(const std::vector<Row>& rows, std::size_t listed) {
+std::string RestOf(const std::vector<RobotRow>& rows, std::size_t listed) {
   health::Report rest;
   bool is_reported = false;
   for (std::size_t i = listed; i < rows.size(); ++i) {
@@ -73,11 +74,11 @@ std::string RestOf(const std::vector<Row>& rows, std::size_t listed) {
 
 std::string RobotListing(const simulation::SimulationStatus& status,
                          const std::map<std::string, RemoteHealth>& healths, bool lists_all) {
-  std::vector<Row> rows = RowsOf(status, healths);
+  std::vector<RobotRow> rows = RowsOf(status, healths);
   const bool is_crowd = rows.size() > kMaxListed;
   if (is_crowd) {
     std::stable_sort(rows.begin(), rows.end(),
-                     [](const Row& a, const Row& b) { return a.severity > b.severity; });
+                     [](const RobotRow& a, const RobotRow& b) { return a.severity > b.severity; });
   }
   const std::size_t listed = lists_all ? rows.size() : std::min(rows.size(), kMaxListed);
   std::size_t name_width = 20;

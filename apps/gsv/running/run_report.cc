@@ -17,8 +17,6 @@ using nlohmann::ordered_json;
 constexpr std::size_t kCrowd =
     20;  // more robots than this are sorted by the severity of their state
 
-double Seconds(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
-
 const char* BehaviourText(const simulation::RobotStatus& robot) {
   if (!robot.behaviour.empty()) return robot.behaviour.c_str();
   return robot.is_station ? "(station)" : "-";
@@ -47,14 +45,14 @@ const health::RobotHealth* HealthIn(const health::Report& report, const std::str
 // Returns one line per robot. If there are more than kCrowd robots, those with the most serious
 // states come first.
 std::string RobotLines(const simulation::SimulationStatus& status, const health::Report& report) {
-  struct Row {
+  struct RobotLine {
     const simulation::RobotStatus* robot;
     const health::RobotHealth* health;  // null for a station
     int Trouble() const {
       return health == nullptr ? 0 : health::Severity(health->state, health->level);
     }
   };
-  std::vector<Row> rows;
+  std::vector<RobotLine> rows;
   int name_width = 20, behaviour_width = 14;
   for (const simulation::RobotStatus& robot : status.robots) {
     rows.push_back({&robot, HealthIn(report, robot.name)});
@@ -65,8 +63,9 @@ std::string RobotLines(const simulation::SimulationStatus& status, const health:
   name_width = std::min(name_width, 40);
   behaviour_width = std::min(behaviour_width, 40);
   if (rows.size() > kCrowd) {
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const Row& a, const Row& b) { return a.Trouble() > b.Trouble(); });
+    std::stable_sort(rows.begin(), rows.end(), [](const RobotLine& a, const RobotLine& b) {
+      return a.Trouble() > b.Trouble();
+    });
   }
   std::string text;
   char line[512];
@@ -101,7 +100,7 @@ ordered_json RobotJson(const simulation::RobotStatus& robot, const health::Repor
   if (const health::RobotHealth* health = HealthIn(report, robot.name)) {
     json["health"] = {{"state", health::ToString(health->state)},
                       {"level", static_cast<int>(health->level)},
-                      {"since_s", Seconds(health->since)},
+                      {"since_s", base::ToSeconds(health->since)},
                       {"sentence", health::FinalSentence(*health)}};
   }
   return json;
@@ -136,8 +135,8 @@ std::string JsonReport(simulation::Simulation& simulation, const std::vector<std
   for (const auto& robot : status.robots) robots.push_back(RobotJson(robot, health));
   ordered_json expectations = ordered_json::array();
   for (const auto& finding : findings) expectations.push_back(FindingJson(finding));
-  const ordered_json report = {{"sim_time_s", Seconds(status.time)},
-                               {"wall_time_s", Seconds(status.wall_time)},
+  const ordered_json report = {{"sim_time_s", base::ToSeconds(status.time)},
+                               {"wall_time_s", base::ToSeconds(status.wall_time)},
                                {"real_time_factor", status.real_time_factor},
                                {"steps", status.step},
                                {"late_steps", status.late_steps},
@@ -157,8 +156,9 @@ std::string TextReport(simulation::Simulation& simulation,
   char line[512];
   std::snprintf(line, sizeof line,
                 "%s after %.2f s simulated in %.2f s (%.2f x real time), %lld steps, %llu late\n",
-                OutcomeText(status.phase), Seconds(status.time), Seconds(status.wall_time),
-                status.real_time_factor, static_cast<long long>(status.step),
+                OutcomeText(status.phase), base::ToSeconds(status.time),
+                base::ToSeconds(status.wall_time), status.real_time_factor,
+                static_cast<long long>(status.step),
                 static_cast<unsigned long long>(status.late_steps));
   std::string text = line;
   const health::Report report = health::HealthNow(simulation);

@@ -52,7 +52,7 @@ model::Joint MotorJoint(std::string name, int parent, int child, const Vector3& 
 // The rover's left wheels are faster than its right wheels. So the rover turns, and its wheels
 // slip.
 std::shared_ptr<const model::Model> Rover() {
-  using Target = model::JointTarget;
+  using model::JointTarget;
   auto rover = std::make_shared<model::Model>();
   rover->name = "rover";
   rover->links.push_back(BoxLink("base", {0.6, 0.4, 0.2}, 20));
@@ -64,7 +64,7 @@ std::shared_ptr<const model::Model> Rover() {
         CylinderLink("wheel_" + number, 0.12, 0.08, 1,
                      {position, geometry::FromAxisAngle({1, 0, 0}, -std::numbers::pi / 2)}));
     rover->joints.push_back(MotorJoint("joint_" + number, 0, i + 1, position, {0, 1, 0}, 20));
-    rover->joint_targets.push_back({i, Target::Kind::kVelocity, is_left ? 5.0 : 3.0});
+    rover->joint_targets.push_back({i, JointTarget::Kind::kVelocity, is_left ? 5.0 : 3.0});
   }
   return rover;
 }
@@ -78,7 +78,7 @@ std::shared_ptr<const model::Model> HeapBox() {
 
 // The arm stands on the ground, to which a joint attaches it.
 std::shared_ptr<const model::Model> Arm() {
-  using Target = model::JointTarget;
+  using model::JointTarget;
   constexpr double kLength = 0.25;  // length of each part, m
   const std::vector<Vector3> axes{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 0}, {0, 0, 1}};
   auto arm = std::make_shared<model::Model>();
@@ -93,7 +93,7 @@ std::shared_ptr<const model::Model> Arm() {
     const double mass = 2.0 / (1 + i);
     arm->links.push_back(CylinderLink("part_" + number, 0.04, kLength - 0.03, mass, {centre, {}}));
     arm->joints.push_back(MotorJoint("joint_" + number, i, i + 1, position, axes[i], 100));
-    arm->joint_targets.push_back({i + 1, Target::Kind::kPosition, i % 2 == 0 ? 0.6 : -0.4});
+    arm->joint_targets.push_back({i + 1, JointTarget::Kind::kPosition, i % 2 == 0 ? 0.6 : -0.4});
   }
   return arm;
 }

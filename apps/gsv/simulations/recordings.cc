@@ -91,12 +91,12 @@ bool NamesAFile(const std::string& path) {
 
 std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
                                     const std::vector<std::string>& topics) {
-  constexpr std::size_t kMaxListed = 24;
+  constexpr std::size_t kMaxTopics = 24;
   std::vector<std::string> sentences;
   for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
     // True for "/gsv", for example: there is no such topic, but there are topics below it.
     const bool is_folder = recording::UnmatchedPatterns(topics, {pattern + "/"}).empty();
-    const std::size_t listed = std::min(topics.size(), kMaxListed);
+    const std::size_t listed = std::min(topics.size(), kMaxTopics);
     std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
     if (listed < topics.size()) there += fmt::format(" and {} more", topics.size() - listed);
     sentences.push_back(fmt::format(

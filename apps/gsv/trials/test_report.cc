@@ -31,9 +31,10 @@ std::string Indented(const std::string& text) {
 
 // Returns the first lines of a text, and a line with the number of omitted lines.
 std::string FirstLines(const std::string& text) {
-  constexpr int kMaxLines = 8;
+  constexpr int kMaxTextLines = 8;
   std::size_t end = 0;
-  for (int i = 0; i < kMaxLines && end != std::string::npos; ++i) end = text.find('\n', end + 1);
+  for (int i = 0; i < kMaxTextLines && end != std::string::npos; ++i)
+    end = text.find('\n', end + 1);
   if (end == std::string::npos) return text;
   const auto others = std::count(text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), '\n');
   return text.substr(0, end) + fmt::format("\nand {} more, see README.txt", others);

@@ -20,7 +20,7 @@ namespace gsv::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Seconds = std::chrono::duration<double>;
+using FloatSeconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
@@ -76,7 +76,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
       !ok) {
     return base::Fail(ok.error());
   }
-  const auto give_up = TestClock::now() + Seconds(options.timeout + kExtraTime);
+  const auto give_up = TestClock::now() + FloatSeconds(options.timeout + kExtraTime);
   ChildOutcome outcome;
   while (outcome.ending.empty() && !is_cancelled && TestClock::now() < give_up) {
     outcome.ending = runs.AwaitEnd(kPollPeriod);
@@ -239,7 +239,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
       KeepFailure(folder->path(), options, *outcome, result);
     break;
   }
-  result.wall_seconds = Seconds(TestClock::now() - start).count();
+  result.wall_seconds = FloatSeconds(TestClock::now() - start).count();
   return result;
 }
 

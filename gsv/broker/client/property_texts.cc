@@ -84,7 +84,7 @@ std::optional<ScalarValue> ToScalar(const Json& json, Scalar scalar) {
   return std::nullopt;
 }
 
-std::optional<Value> ToValue(const Json& json, const PropertyType& type) {
+std::optional<Value> ValueFromJson(const Json& json, const PropertyType& type) {
   if (!type.sequence) {
     const auto content = ToScalar(json, type.scalar);
     if (!content) return std::nullopt;
@@ -149,7 +149,7 @@ base::Result<Property> ParseProperty(const std::string& text, const ServiceType&
   if (json.is_discarded() || (is_text && !json.is_string())) json = content;
   const PropertyType expected =
       declared != type.properties.end() ? declared->type : TypeThatJsonSays(json);
-  auto value = ToValue(json, expected);
+  auto value = ValueFromJson(json, expected);
   if (!value) {
     return base::Fail(ErrorCode::kInvalidArgument,
                       fmt::format("the value is not of the type {}", expected.Spelling()), text);

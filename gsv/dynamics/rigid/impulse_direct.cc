@@ -10,7 +10,7 @@
 namespace gsv::dynamics {
 namespace {
 
-double Length(const std::array<double, 2>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1]); }
+double PlanarLength(const std::array<double, 2>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1]); }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void ImpulseRows::ChooseFree() {
   turns_.assign(cones_.size(), false);
   if (free_.size() + turning > static_cast<std::size_t>(kMaxDirect)) return;
   for (std::size_t i = 0; i < cones_.size(); ++i) {
-    if (!slips_[i] || !(Length(MissingOf(cones_[i])) > kStands)) continue;
+    if (!slips_[i] || !(PlanarLength(MissingOf(cones_[i])) > kStands)) continue;
     turns_[i] = true;
     choose(cones_[i].first_row);
     choose(cones_[i].first_row + 1);
@@ -112,7 +112,7 @@ void ImpulseRows::WriteSlip(const Cone& cone) {
   const auto first = static_cast<std::size_t>(place_[static_cast<std::size_t>(cone.first_row)]);
   const Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
   const auto [e0, e1] = MissingOf(cone);
-  const double length = Length({e0, e1}), radius = RadiusOf(cone), weight = a.mass_inverse;
+  const double length = PlanarLength({e0, e1}), radius = RadiusOf(cone), weight = a.mass_inverse;
   const double d0 = e0 / length, d1 = e1 / length, stiff = length / radius;
   const double* of_a = couplings_.data() + static_cast<std::size_t>(cone.first_row) * count;
   const double* of_b = of_a + count;
@@ -252,7 +252,7 @@ bool ImpulseRows::ChooseLikely() {
     const Cone& cone = cones_[i];
     if (place_[static_cast<std::size_t>(cone.normal_row)] < 0 || !(cone.friction > 0)) continue;
     if (At(cone.first_row).mass_inverse == 0 || At(cone.first_row + 1).mass_inverse == 0) continue;
-    slips_[i] = Length(MissingOf(cone)) > kSlips;
+    slips_[i] = PlanarLength(MissingOf(cone)) > kSlips;
     if (slips_[i]) continue;
     choose(cone.first_row);
     choose(cone.first_row + 1);
@@ -272,7 +272,7 @@ bool ImpulseRows::Guess() {
     if (!slips_[i]) continue;
     const Cone& cone = cones_[i];
     const auto missing = MissingOf(cone);
-    const double scale = cone.friction / Length(missing);
+    const double scale = cone.friction / PlanarLength(missing);
     for (int k = 0; k < 2; ++k) At(cone.first_row + k).impulse = scale * missing[k];
     At(cone.normal_row).impulse = 1;
   }
@@ -306,7 +306,7 @@ bool ImpulseRows::TakeGuess() {
       if (place >= 0) wanted[k] = unknown_[static_cast<std::size_t>(place + k)];
       row.impulse = 0;
     }
-    if (!slips_[i] && Length(wanted) > RadiusOf(cone)) return false;
+    if (!slips_[i] && PlanarLength(wanted) > RadiusOf(cone)) return false;
     for (int k = 0; k < 2; ++k) Apply(At(cone.first_row + k), wanted[k]);
   }
   return true;

@@ -8,36 +8,35 @@ namespace {
 using geometry::Pose;
 
 void SetKind(Piece& piece) {
-  using Kind = Piece::Kind;
   const btCollisionShape& shape = *piece.shape;
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE: {
       const double radius = static_cast<const btSphereShape&>(shape).getRadius();
-      piece.kind = Kind::kSphere;
+      piece.kind = Piece::Kind::kSphere;
       piece.half = {radius, radius, 0};
       break;
     }
     case BOX_SHAPE_PROXYTYPE:
-      piece.kind = Kind::kBox;
+      piece.kind = Piece::Kind::kBox;
       piece.half = FromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
       break;
     case CYLINDER_SHAPE_PROXYTYPE:
-      piece.kind = Kind::kCylinder;
+      piece.kind = Piece::Kind::kCylinder;
       piece.half =
           FromBullet(static_cast<const btCylinderShape&>(shape).getHalfExtentsWithMargin());
       break;
     case CAPSULE_SHAPE_PROXYTYPE: {
       const auto& capsule = static_cast<const btCapsuleShape&>(shape);
-      piece.kind = Kind::kCapsule;
+      piece.kind = Piece::Kind::kCapsule;
       piece.half = {capsule.getRadius(), capsule.getRadius(), capsule.getHalfHeight()};
       break;
     }
     case STATIC_PLANE_PROXYTYPE:
-      piece.kind = Kind::kPlane;
+      piece.kind = Piece::Kind::kPlane;
       piece.normal = FromBullet(static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal());
       break;
     case TRIANGLE_MESH_SHAPE_PROXYTYPE:
-      piece.kind = Kind::kMesh;
+      piece.kind = Piece::Kind::kMesh;
       piece.triangles = static_cast<const TriangleSurface*>(shape.getUserPointer());
       break;
     default:

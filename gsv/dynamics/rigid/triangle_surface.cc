@@ -19,7 +19,7 @@ constexpr double kOnePlane = 1e-4;
 // Tolerance, as a cosine, for a direction outside of the Voronoi region of an edge or vertex.
 constexpr double kBeyond = 1e-4;
 
-std::size_t IndexOf(int i) { return static_cast<std::size_t>(i); }
+std::size_t ToIndex(int i) { return static_cast<std::size_t>(i); }
 std::size_t After(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
 auto Tied(const Vector3& v) { return std::tie(v.x, v.y, v.z); }
@@ -29,16 +29,16 @@ std::vector<int> Weld(const std::vector<Vector3>& positions) {
   std::vector<int> order, numbers(positions.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   for (const int i : numbers) {
-    if (geometry::IsFinite(positions[IndexOf(i)])) order.push_back(i);
+    if (geometry::IsFinite(positions[ToIndex(i)])) order.push_back(i);
   }
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::tuple_cat(Tied(positions[IndexOf(a)]), std::tuple(a)) <
-           std::tuple_cat(Tied(positions[IndexOf(b)]), std::tuple(b));
+    return std::tuple_cat(Tied(positions[ToIndex(a)]), std::tuple(a)) <
+           std::tuple_cat(Tied(positions[ToIndex(b)]), std::tuple(b));
   });
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto at = IndexOf(order[i]);
-    const bool is_same = i > 0 && Tied(positions[at]) == Tied(positions[IndexOf(order[i - 1])]);
-    numbers[at] = is_same ? numbers[IndexOf(order[i - 1])] : order[i];
+    const auto at = ToIndex(order[i]);
+    const bool is_same = i > 0 && Tied(positions[at]) == Tied(positions[ToIndex(order[i - 1])]);
+    numbers[at] = is_same ? numbers[ToIndex(order[i - 1])] : order[i];
   }
   return numbers;
 }
@@ -117,8 +117,8 @@ void TriangleSurface::JoinNeighbours() {
     }
     if (end - begin != 2) continue;
     const int own = sides[begin].edge, other = sides[begin + 1].edge;
-    Triangle &first = triangles_[IndexOf(own / 3)], &second = triangles_[IndexOf(other / 3)];
-    const auto i = IndexOf(own % 3), j = IndexOf(other % 3);
+    Triangle &first = triangles_[ToIndex(own / 3)], &second = triangles_[ToIndex(other / 3)];
+    const auto i = ToIndex(own % 3), j = ToIndex(other % 3);
     const bool is_flat = Dot(first.inwards[i], second.inwards[j]) < 0 &&
                          std::abs(Dot(first.normal, second.inwards[j])) < kOnePlane;
     first.beside[i] = other;
@@ -142,7 +142,7 @@ void TriangleSurface::ListVerticesBeside() {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   first_beside_.assign(vertices_.size() + 1, 0);
   for (const auto& [from, to] : pairs) {
-    ++first_beside_[IndexOf(from) + 1];
+    ++first_beside_[ToIndex(from) + 1];
     beside_.push_back(to);
   }
   std::partial_sum(first_beside_.begin(), first_beside_.end(), first_beside_.begin());
@@ -153,13 +153,13 @@ bool TriangleSurface::MayTouchEdge(const Triangle& triangle, std::size_t edge,
   if (Dot(normal, triangle.inwards[edge]) > kBeyond) return false;
   const int beside = triangle.beside[edge];
   return beside < 0 ||
-         Dot(normal, triangles_[IndexOf(beside / 3)].inwards[IndexOf(beside % 3)]) <= kBeyond;
+         Dot(normal, triangles_[ToIndex(beside / 3)].inwards[ToIndex(beside % 3)]) <= kBeyond;
 }
 
 bool TriangleSurface::MayTouchVertex(int vertex, const Vector3& normal) const {
-  const Vector3& at = vertices_[IndexOf(vertex)];
-  for (int i = first_beside_[IndexOf(vertex)]; i < first_beside_[IndexOf(vertex) + 1]; ++i) {
-    const Vector3 along = vertices_[IndexOf(beside_[IndexOf(i)])] - at;
+  const Vector3& at = vertices_[ToIndex(vertex)];
+  for (int i = first_beside_[ToIndex(vertex)]; i < first_beside_[ToIndex(vertex) + 1]; ++i) {
+    const Vector3 along = vertices_[ToIndex(beside_[ToIndex(i)])] - at;
     if (Dot(normal, along) > kBeyond * Norm(along)) return false;
   }
   return true;
@@ -298,7 +298,7 @@ class TriangleSurface::CylinderContacts {
   void AddFace(const Triangle& triangle, const Vector3& normal, double height) {
     std::array<Vector3, 4> lowest;
     const int count = LowestOfCylinder(cylinder_, normal, lowest);
-    for (std::size_t k = 0; k < IndexOf(count); ++k) {
+    for (std::size_t k = 0; k < ToIndex(count); ++k) {
       const double distance = height + Dot(normal, lowest[k]);
       if (!IsContact(distance)) continue;
       const Vector3 below = cylinder_.position + lowest[k] - distance * normal;
@@ -418,7 +418,7 @@ bool TriangleSurface::AddPoints(const PlacedPiece& piece, const PlacedPiece& mes
     case Piece::Kind::kSphere: {
       MeshPoints list(margin, 1e-9, local.piece->half.x, points);
       SphereContacts contacts(*this, local, list);
-      bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[IndexOf(i)]); });
+      bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[ToIndex(i)]); });
       list.Finish(mesh);
       return true;
     }
@@ -426,7 +426,7 @@ bool TriangleSurface::AddPoints(const PlacedPiece& piece, const PlacedPiece& mes
       const double radius = piece.piece->half.x;
       MeshPoints list(margin, CylinderContacts::SameDistance(radius), radius, points);
       CylinderContacts contacts(*this, local, list);
-      bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[IndexOf(i)]); });
+      bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[ToIndex(i)]); });
       list.Finish(mesh);
       return true;
     }

@@ -114,7 +114,7 @@ std::string WithoutLeadingSlashes(std::string path) {
   return path;
 }
 
-std::string Trimmed(std::string_view text) {
+std::string TrimmedName(std::string_view text) {
   constexpr char kBlanks[] = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return "";
@@ -147,7 +147,7 @@ std::string PackageName(const fs::path& folder) {
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) return "";
   const auto* root = document.RootElement();
   const auto* name = root == nullptr ? nullptr : root->FirstChildElement("name");
-  return name == nullptr || name->GetText() == nullptr ? "" : Trimmed(name->GetText());
+  return name == nullptr || name->GetText() == nullptr ? "" : TrimmedName(name->GetText());
 }
 
 // Finds "PACKAGE/REST" in a ROS package near the naming file. Searches the naming file's folder and
@@ -237,7 +237,7 @@ std::vector<std::string> ResourceFinder::ModelNames() const {
 
 base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
-  std::string path = Trimmed(name);
+  std::string path = TrimmedName(name);
   if (path.empty()) return Fail(ErrorCode::kNotFound, "the file name is empty");
   if (path.size() > kMaxNameLength) {
     return Fail(ErrorCode::kNotFound,

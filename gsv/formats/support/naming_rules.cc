@@ -24,7 +24,7 @@ std::string Trimmed(const char* text) {
 
 std::string NameOf(const XMLElement& element) { return Trimmed(element.Attribute("name")); }
 
-std::string TextOf(const XMLElement& element, const char* child) {
+std::string TrimmedText(const XMLElement& element, const char* child) {
   const XMLElement* found = element.FirstChildElement(child);
   return found == nullptr ? std::string() : Trimmed(found->GetText());
 }
@@ -131,7 +131,7 @@ class NamingRules {
   }
 
   static void AddInclude(const XMLElement& include, Scope& scope) {
-    const std::string name = TextOf(include, "name");
+    const std::string name = TrimmedText(include, "name");
     if (name.empty() || include.BoolAttribute("merge", false)) {
       scope.is_open = true;
     } else {
@@ -180,7 +180,7 @@ class NamingRules {
   }
 
   void CheckJoint(const XMLElement& joint, const Scope& scope) {
-    const std::string parent = TextOf(joint, "parent"), child = TextOf(joint, "child");
+    const std::string parent = TrimmedText(joint, "parent"), child = TrimmedText(joint, "child");
     CheckReference("parent", parent, joint, scope);
     CheckReference("child", child, joint, scope);
     if (child == "world") Report("a joint's child cannot be the world", joint);
@@ -215,7 +215,7 @@ class NamingRules {
       if (kind == "frame") {
         name = Trimmed(element->Attribute("attached_to"));
       } else if (kind == "joint") {
-        name = TextOf(*element, "child");
+        name = TrimmedText(*element, "child");
       } else {
         return {};
       }
@@ -230,7 +230,7 @@ class NamingRules {
     const std::string relative_to = attachment ? std::string() : RelativeTo(element);
     if (!relative_to.empty()) return relative_to;
     if (kind == "frame") return Trimmed(element.Attribute("attached_to"));
-    if (kind == "joint") return TextOf(element, "child");
+    if (kind == "joint") return TrimmedText(element, "child");
     return {};
   }
 

@@ -9,7 +9,7 @@
 namespace gsv::formats {
 namespace {
 
-std::string_view Trimmed(std::string_view text) {
+std::string_view TrimmedField(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
@@ -48,7 +48,7 @@ void ForEachLine(std::string_view table, Take take) {
   }
 }
 
-std::string PlainName(std::string_view name) {
+std::string LowerCaseName(std::string_view name) {
   std::string plain;
   for (const char c : name) {
     if (c != '-' && c != '_')
@@ -132,14 +132,14 @@ void SupportTable::ReadElements(std::string_view table) {
 void SupportTable::ReadRow(std::string_view line, ElementSupport& definition) {
   std::string_view rest = line;
   std::string_view fields = TakeUntil(rest, " ;");
-  const std::string_view note = Trimmed(rest);
+  const std::string_view note = TrimmedField(rest);
   std::string_view before_default = TakeUntil(fields, " =");
   const bool has_default = fields.data() != nullptr;
-  const std::string_view otherwise = Trimmed(fields);
+  const std::string_view otherwise = TrimmedField(fields);
 
   std::string_view path = TakeUntil(before_default, " ");
   const std::string_view sign = TakeUntil(before_default, " ");
-  std::string_view versions = Trimmed(before_default);
+  std::string_view versions = TrimmedField(before_default);
   const bool is_repeatable = path.back() == '*';
   if (is_repeatable) path.remove_suffix(1);
   std::string_view shape = path;
@@ -165,14 +165,14 @@ void SupportTable::ReadPlugins(std::string_view table) {
   ForEachLine(table, [&](std::string_view line) {
     const std::string_view sign = TakeUntil(line, " ");
     const std::string_view part = TakeUntil(line, ";");
-    plugins_.push_back({SupportOf(sign), part, Trimmed(line)});
+    plugins_.push_back({SupportOf(sign), part, TrimmedField(line)});
   });
 }
 
 const PluginSupport* SupportTable::Plugin(std::string_view file_name,
                                           std::string_view class_name) const {
   for (const std::string_view name : {file_name, class_name}) {
-    const std::string plain = PlainName(name);
+    const std::string plain = LowerCaseName(name);
     for (const PluginSupport& known : plugins_) {
       if (plain.find(known.part) != std::string::npos) return &known;
     }

@@ -19,7 +19,7 @@ namespace {
 using geometry::kInfinity;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxScanBeams = 100'000, kMaxSentences = 20;
+constexpr std::size_t kMaxScanBeams = 100'000, kMaxWarnings = 20;
 
 // Returns a number in a message, or NaN if there is none. In the JSON, infinite numbers are
 // texts.
@@ -65,8 +65,8 @@ class McapLog {
       Add(**next);
     }
     ReportIgnoredTopics();
-    if (warnings_ > kMaxSentences) {
-      Keep(fmt::format("{} more messages have problems", warnings_ - kMaxSentences));
+    if (warnings_ > kMaxWarnings) {
+      Keep(fmt::format("{} more messages have problems", warnings_ - kMaxWarnings));
     }
     if (log_.duration() == 0 && log_.scans.empty()) {
       return base::Fail(
@@ -229,7 +229,7 @@ class McapLog {
 
   std::string Where(double time) const { return fmt::format("at {} s ", time); }
   void Warn(const std::string& what) {
-    if (++warnings_ <= kMaxSentences) Keep(what + "; it is ignored");
+    if (++warnings_ <= kMaxWarnings) Keep(what + "; it is ignored");
   }
   void Keep(const std::string& what) {
     problems_.push_back({base::Problem::Severity::kWarning, what, path_.string()});

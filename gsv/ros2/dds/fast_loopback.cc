@@ -13,7 +13,7 @@
 namespace gsv::ros2::dds {
 namespace {
 
-namespace rtps = eprosima::fastdds::rtps;
+namespace transport = eprosima::fastdds::rtps;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
@@ -64,11 +64,11 @@ class WithoutGroup final : public LocatorsIterator {
 };
 #pragma GCC diagnostic pop
 
-class Loopback final : public rtps::ChainingTransport {
+class Loopback final : public transport::ChainingTransport {
  public:
   using ChainingTransport::ChainingTransport;
 
-  rtps::TransportDescriptorInterface* get_configuration() override {
+  transport::TransportDescriptorInterface* get_configuration() override {
     return low_level_transport_->get_configuration();
   }
 
@@ -90,8 +90,9 @@ class Loopback final : public rtps::ChainingTransport {
     return sender->send(bytes, size, &to, end, timeout);
   }
 
-  void receive(rtps::TransportReceiverInterface* next, const eprosima::fastrtps::rtps::octet* bytes,
-               std::uint32_t size, const Locator_t& local, const Locator_t& remote) override {
+  void receive(transport::TransportReceiverInterface* next,
+               const eprosima::fastrtps::rtps::octet* bytes, std::uint32_t size,
+               const Locator_t& local, const Locator_t& remote) override {
     next->OnDataReceived(bytes, size, local, remote);
   }
 
@@ -99,15 +100,16 @@ class Loopback final : public rtps::ChainingTransport {
   const LocalMulticast multicast_{kDiscoveryGroup};
 };
 
-struct LoopbackDescriptor final : rtps::ChainingTransportDescriptor {
+struct LoopbackDescriptor final : transport::ChainingTransportDescriptor {
   using ChainingTransportDescriptor::ChainingTransportDescriptor;
-  rtps::TransportInterface* create_transport() const override { return new Loopback(*this); }
+  transport::TransportInterface* create_transport() const override { return new Loopback(*this); }
 };
 
 }  // namespace
 
-std::shared_ptr<rtps::TransportDescriptorInterface> LoopbackTransport(std::uint32_t max_peers) {
-  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+std::shared_ptr<transport::TransportDescriptorInterface> LoopbackTransport(
+    std::uint32_t max_peers) {
+  auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {"127.0.0.1"};
   udp->maxInitialPeersRange = max_peers;
   udp->receiveBufferSize = kSocketBuffer;
