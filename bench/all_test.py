@@ -138,6 +138,18 @@ class Options(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn('--beside "echo 1" has no "="', text)
 
+    def test_no_repetitions_are_refused(self):
+        code, _, text, _ = run_main(self.build, "--repetitions", "0")
+        self.assertEqual(code, 2)
+        self.assertIn("--repetitions: expected 1 or more, found 0", text)
+
+    def test_a_file_that_cannot_be_written_is_refused_before_the_measurements(self):
+        with self.assertRaises(SystemExit) as end, contextlib.redirect_stderr(io.StringIO()) as errors:
+            with unittest.mock.patch.object(sys, "argv", ["all", str(self.build), "/nowhere/out.json"]):
+                bench.main()
+        self.assertEqual(end.exception.code, 2)
+        self.assertEqual(errors.getvalue(), "bench/all: cannot write /nowhere/out.json: No such file or directory.\n")
+
     def test_a_folder_without_gsv_is_refused(self):
         for options in (("/nowhere",), (self.build, "--against", "/nowhere")):
             code, _, text, _ = run_main(*options)

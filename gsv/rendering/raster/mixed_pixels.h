@@ -47,27 +47,15 @@ class SeenPlanes {
                                           int seen) {
     Set(mask, x0_, s.x0);
     Set(mask, y0_, s.y0);
-    Set(mask, w_.a, s.a[TriangleSurface::kInverseW]);
-    Set(mask, w_.b, s.b[TriangleSurface::kInverseW]);
-    Set(mask, w_.c, s.c[TriangleSurface::kInverseW]);
-    Set(mask, normal_x_.a, s.a[TriangleSurface::kNormalX]);
-    Set(mask, normal_x_.b, s.b[TriangleSurface::kNormalX]);
-    Set(mask, normal_x_.c, s.c[TriangleSurface::kNormalX]);
-    Set(mask, normal_y_.a, s.a[TriangleSurface::kNormalY]);
-    Set(mask, normal_y_.b, s.b[TriangleSurface::kNormalY]);
-    Set(mask, normal_y_.c, s.c[TriangleSurface::kNormalY]);
-    Set(mask, normal_z_.a, s.a[TriangleSurface::kNormalZ]);
-    Set(mask, normal_z_.b, s.b[TriangleSurface::kNormalZ]);
-    Set(mask, normal_z_.c, s.c[TriangleSurface::kNormalZ]);
+    Set(mask, w_, s, TriangleSurface::kInverseW);
+    Set(mask, normal_x_, s, TriangleSurface::kNormalX);
+    Set(mask, normal_y_, s, TriangleSurface::kNormalY);
+    Set(mask, normal_z_, s, TriangleSurface::kNormalZ);
     number_ = SelectInt(mask, SplatInt<F>(s.number), number_);
     if (!has_textures) return;
     has_textures_ = true;
-    Set(mask, u_.a, s.a[TriangleSurface::kU]);
-    Set(mask, u_.b, s.b[TriangleSurface::kU]);
-    Set(mask, u_.c, s.c[TriangleSurface::kU]);
-    Set(mask, v_.a, s.a[TriangleSurface::kV]);
-    Set(mask, v_.b, s.b[TriangleSurface::kV]);
-    Set(mask, v_.c, s.c[TriangleSurface::kV]);
+    Set(mask, u_, s, TriangleSurface::kU);
+    Set(mask, v_, s, TriangleSurface::kV);
     middle_ = Select(mask, ByGroup<F>(MiddlesOf<F>(seen)), middle_);
   }
 
@@ -86,6 +74,13 @@ class SeenPlanes {
  private:
   __attribute__((always_inline)) static void Set(Mask mask, F& lanes, float value) {
     lanes = Select(mask, Splat<F>(value), lanes);
+  }
+  __attribute__((always_inline)) static void Set(Mask mask, PlaneLanes<F>& lanes,
+                                                 const TriangleSurface& s,
+                                                 TriangleSurface::Plane i) {
+    Set(mask, lanes.a, s.a[i]);
+    Set(mask, lanes.b, s.b[i]);
+    Set(mask, lanes.c, s.c[i]);
   }
 
   F columns_, rows_;
