@@ -1,5 +1,6 @@
 #include "gsv/messages/cdr.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "gsv/base/check.h"
@@ -10,14 +11,31 @@ namespace {
 constexpr std::array<std::byte, 4> kEncapsulation{std::byte{0}, std::byte{1}, std::byte{0},
                                                   std::byte{0}};
 
+// The minimum number of bytes by which a writer extends its buffer. Most messages are shorter.
+constexpr std::size_t kReserve = 200;
+
 // Fast DDS rounds the size of a message up to a multiple of four, so up to three bytes may follow.
 constexpr std::size_t kMaxTrailingBytes = 3;
 
 }  // namespace
 
 CdrWriter::CdrWriter(Bytes& out) : out_(out) {
-  out_.insert(out_.end(), kEncapsulation.begin(), kEncapsulation.end());
-  origin_ = out_.size();
+  const std::size_t begin = out_.size();
+  out_.resize(begin + kEncapsulation.size() + kReserve);
+  std::memcpy(out_.data() + begin, kEncapsulation.data(), kEncapsulation.size());
+  origin_ = next_ = out_.data() + begin + kEncapsulation.size();
+  end_ = out_.data() + out_.size();
+}
+
+// The added size grows with the message, so that long messages are rarely moved.
+void CdrWriter::Grow(std::size_t size) {
+  const std::byte* const begin = out_.data();
+  const auto origin = static_cast<std::size_t>(origin_ - begin);
+  const auto used = static_cast<std::size_t>(next_ - begin);
+  out_.resize(used + size + std::max(kReserve, used - origin));
+  origin_ = out_.data() + origin;
+  next_ = out_.data() + used;
+  end_ = out_.data() + out_.size();
 }
 
 void CdrWriter::WriteCount(std::size_t count) {
@@ -27,8 +45,9 @@ void CdrWriter::WriteCount(std::size_t count) {
 
 void CdrWriter::Write(std::string_view text) {
   WriteCount(text.size() + 1);
-  WriteBlock(text.data(), text.size(), 1);
-  out_.push_back(std::byte{0});
+  std::byte* const at = Extend(text.size() + 1, 1);
+  if (!text.empty()) std::memcpy(at, text.data(), text.size());
+  at[text.size()] = std::byte{0};
 }
 
 CdrReader::CdrReader(std::span<const std::byte> bytes) {

@@ -33,11 +33,16 @@ static_assert(std::endian::native == std::endian::little,
 
 using Bytes = std::vector<std::byte>;
 
-// Appends one message to a buffer.
+// Appends one message to a buffer. Until the writer is destroyed, the buffer is longer than the
+// message.
 class CdrWriter {
  public:
   // `out` must outlive the writer. Its content is kept, and the encapsulation header is appended.
   explicit CdrWriter(Bytes& out);
+  // Removes the bytes after the message from the buffer.
+  ~CdrWriter() { out_.resize(static_cast<std::size_t>(next_ - out_.data())); }
+  CdrWriter(const CdrWriter&) = delete;
+  CdrWriter& operator=(const CdrWriter&) = delete;
 
   // Writes a number.
   template <typename Number>
@@ -48,19 +53,28 @@ class CdrWriter {
   // Writes the number of elements of a sequence.
   void WriteCount(std::size_t count);
 
-  // Writes `size` bytes of numbers of one type, in their memory representation. Writes nothing, not
+  // Writes `size` bytes of numbers of one size, in their memory representation. Writes nothing, not
   // even padding, if `size` is 0.
   void WriteBlock(const void* data, std::size_t size, std::size_t alignment) {
-    if (size == 0) return;
-    const std::size_t padding = (origin_ - out_.size()) & (alignment - 1);
-    const std::size_t at = out_.size() + padding;
-    out_.resize(at + size);
-    std::memcpy(out_.data() + at, data, size);
+    if (size > 0) std::memcpy(Extend(size, alignment), data, size);
   }
 
  private:
-  Bytes& out_;          // the buffer to which the writer appends
-  std::size_t origin_;  // the position from which alignment is counted
+  // Extends the message by padding and `size` bytes. Returns the position of these bytes.
+  std::byte* Extend(std::size_t size, std::size_t alignment) {
+    const std::size_t padding = static_cast<std::size_t>(origin_ - next_) & (alignment - 1);
+    if (static_cast<std::size_t>(end_ - next_) < padding + size) Grow(padding + size);
+    std::byte* const at = next_ + padding;  // the padding is zero already, see Grow()
+    next_ = at + size;
+    return at;
+  }
+  // Makes the buffer longer, so that at least `size` bytes follow the message. New bytes are zero.
+  void Grow(std::size_t size);
+
+  Bytes& out_;                   // the buffer to which the writer appends
+  std::byte* origin_ = nullptr;  // the position from which alignment is counted
+  std::byte* next_ = nullptr;    // the end of the message so far
+  std::byte* end_ = nullptr;     // the end of the buffer
 };
 
 // Reads one message. The reader fails at the first value that exceeds the message. From then on,

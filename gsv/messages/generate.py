@@ -23,6 +23,7 @@ PRIMITIVES = {
     "float32": ("float", 4), "float64": ("double", 8),
     **{f"{u}int{8 * n}": (f"std::{u}int{8 * n}_t", n) for u in ("", "u") for n in (1, 2, 4, 8)},
 }
+SIZES = dict(PRIMITIVES.values())  # bytes of a number, by C++ type
 FIELD = re.compile(r"^([\w/]+)(\[((?:<=)?\d*)\])?\s+([a-z][a-z0-9_]*)(?:\s+(-?[\d.]+))?$")
 CONSTANT = re.compile(r"^(\w+)\s+([A-Z][A-Z0-9_]*)\s*=\s*(-?[\d.]+)$")
 SEPARATOR = "=" * 80
@@ -182,14 +183,16 @@ class MessageSet:
                    for f in self.messages[type_].fields)
 
     def scalar_of(self, type_):
-        """Returns the C++ number type if all numbers in a value have the same type, otherwise None. Such a
-        value has the same bytes in memory as in CDR."""
+        """Returns the C++ type of the first number in a value if all its numbers have the same size, otherwise None.
+        Such a value has the same bytes in memory as in CDR."""
         if type_ in PRIMITIVES:
             return None if type_ == "bool" else PRIMITIVES[type_][0]
         if type_ == "string" or any(f.array == "[]" for f in self.messages[type_].fields):
             return None
-        scalars = {self.scalar_of(f.type) for f in self.messages[type_].fields}
-        return scalars.pop() if len(scalars) == 1 else None
+        scalars = [self.scalar_of(f.type) for f in self.messages[type_].fields]
+        if None in scalars or len({SIZES[scalar] for scalar in scalars}) > 1:
+            return None
+        return scalars[0]
 
 
 def cpp_type(type_):
@@ -254,6 +257,8 @@ def encode_statements(messages, f):
     if f.array and scalar:
         return lines + [f"  writer.WriteBlock({value}.data(), {value}.size() * "
                         f"sizeof({cpp_type(f.type)}), sizeof({scalar}));"]
+    if not f.array and scalar and f.type not in PRIMITIVES:
+        return [f"  writer.WriteBlock(&{value}, sizeof {value}, sizeof({scalar}));"]
     one = ("writer.Write({})" if f.type in PRIMITIVES or f.type == "string" else
            "Encode({}, writer)")
     if f.array:

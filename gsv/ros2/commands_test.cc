@@ -110,11 +110,13 @@ simulation::RobotSpecification TwoSliders() {
 
 messages::Bytes ArrayBytes(const std::vector<double>& values) {
   messages::Bytes bytes;
-  messages::CdrWriter writer(bytes);
-  writer.WriteCount(0);
-  writer.Write(std::uint32_t{0});
-  writer.WriteCount(values.size());
-  for (const double value : values) writer.Write(value);
+  {
+    messages::CdrWriter writer(bytes);
+    writer.WriteCount(0);
+    writer.Write(std::uint32_t{0});
+    writer.WriteCount(values.size());
+    for (const double value : values) writer.Write(value);
+  }
   return bytes;
 }
 
@@ -162,15 +164,17 @@ TEST(CommandInput, TakesNoCommandsForARemovedRobot) {
 
 TEST(Float64MultiArray, IsReadWithItsLayout) {
   messages::Bytes bytes;
-  messages::CdrWriter writer(bytes);
-  writer.WriteCount(1);
-  writer.Write(std::string_view("joints"));
-  writer.Write(std::uint32_t{2});
-  writer.Write(std::uint32_t{2});
-  writer.Write(std::uint32_t{0});
-  writer.WriteCount(2);
-  writer.Write(1.5);
-  writer.Write(-2.0);
+  {
+    messages::CdrWriter writer(bytes);
+    writer.WriteCount(1);
+    writer.Write(std::string_view("joints"));
+    writer.Write(std::uint32_t{2});
+    writer.Write(std::uint32_t{2});
+    writer.Write(std::uint32_t{0});
+    writer.WriteCount(2);
+    writer.Write(1.5);
+    writer.Write(-2.0);
+  }
   const auto values = DecodeFloat64MultiArray(bytes);
   ASSERT_TRUE(values);
   EXPECT_EQ(*values, (std::vector<double>{1.5, -2.0}));
@@ -181,8 +185,7 @@ TEST(Float64MultiArray, IsReadWithItsLayout) {
 
 TEST(Float64MultiArray, RejectsALayoutBeyondItsData) {
   messages::Bytes bytes;
-  messages::CdrWriter writer(bytes);
-  writer.WriteCount(0xffffffff);
+  messages::CdrWriter(bytes).WriteCount(0xffffffff);
   EXPECT_FALSE(DecodeFloat64MultiArray(bytes));
 }
 

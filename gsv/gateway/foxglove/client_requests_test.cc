@@ -315,10 +315,12 @@ TEST_F(CommandServicesTest, EachParameterIsAFieldOfTheRequest) {
             "# : a text; empty: all\nstring of\n");
   const auto request = [](double height, bool gently, const std::string& of) {
     messages::Bytes bytes;
-    messages::CdrWriter writer(bytes);
-    writer.Write(height);
-    writer.Write(gently);
-    writer.Write(of);
+    {
+      messages::CdrWriter writer(bytes);
+      writer.Write(height);
+      writer.Write(gently);
+      writer.Write(of);
+    }
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   };
   (*Prepare(3, request(-1.5, true, "crates")))();

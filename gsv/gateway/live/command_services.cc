@@ -136,9 +136,11 @@ base::Result<Arguments> ArgumentsIn(const Command& command, const foxglove::Serv
 
 CommandServices::Response ResponseTo(const base::Result<std::string>& done) {
   CommandServices::Response bytes;
-  messages::CdrWriter writer(bytes);
-  writer.Write(done.has_value());
-  writer.Write(done ? *done : done.error().Sentence());
+  {
+    messages::CdrWriter writer(bytes);
+    writer.Write(done.has_value());
+    writer.Write(done ? *done : done.error().Sentence());
+  }
   return bytes;
 }
 
