@@ -160,6 +160,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
                                                const std::string& sensor) = 0;
   // Returns the sensors of a robot: those of its model, and those that were created.
   virtual std::vector<model::SensorDescription> sensors(const std::string& robot) const = 0;
+  // Returns the number of sensors that were created or removed so far, on all robots. While this
+  // number and the layout stay the same, sensors() returns the same lists.
+  virtual std::uint64_t sensor_changes() const = 0;
   virtual const sensing::SensorRegistry& sensor_types() const = 0;
 
   // Returns the events from number `first` on, counted from 0. Only a limited number of events is

@@ -422,6 +422,13 @@ std::vector<model::SensorDescription> ScriptedSimulation::sensors(const std::str
   return sensors;
 }
 
+std::uint64_t ScriptedSimulation::sensor_changes() const {
+  const std::lock_guard lock(mutex_);
+  std::uint64_t changes = 0;
+  for (const auto& [robot, sensors] : mounted_) changes += sensors.size();
+  return changes;
+}
+
 std::vector<simulation::Event> ScriptedSimulation::events(std::uint64_t first) const {
   const std::lock_guard lock(mutex_);
   const std::size_t begin = std::min<std::size_t>(first, events_.size());

@@ -81,6 +81,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Result<sensing::Reading> Watch(const std::string& robot,
                                        const std::string& sensor) override;
   std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
+  std::uint64_t sensor_changes() const override;
   const sensing::SensorRegistry& sensor_types() const override { return sensor_types_; }
   std::vector<simulation::Event> events(std::uint64_t first) const override;
   std::vector<simulation::Event> outputs(std::uint64_t first) const override;

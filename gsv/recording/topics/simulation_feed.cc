@@ -6,7 +6,7 @@ namespace gsv::recording {
 namespace {
 
 // The lists of sensors are made when the layout changes. Mounting a sensor does not change the
-// layout, so the lists are also made at this interval.
+// layout, so the count of mounted sensors is compared at this interval.
 constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
 constexpr std::size_t kMaxEvents = 10'000;
 
@@ -33,7 +33,9 @@ Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>
     observation.status = simulation_.status();
     observation.expectations = simulation_.expectations();
   }
-  if (sensor_instants_.AdvanceTo(time) || layout_ != snapshot->layout) {
+  const bool is_due = sensor_instants_.AdvanceTo(time);
+  if (layout_ != snapshot->layout || (is_due && sensor_changes_ != simulation_.sensor_changes())) {
+    sensor_changes_ = simulation_.sensor_changes();
     observation.sensors = std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
     layout_ = snapshot->layout;
   }

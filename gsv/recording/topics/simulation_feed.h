@@ -77,11 +77,12 @@ class SimulationFeed final : public simulation::Observer {
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
-  // Only the stepping thread uses the next three members: the instants at which the status and the
-  // lists of sensors are read, and the layout.
+  // Only the stepping thread uses the next four members: the instants at which the status and the
+  // lists of sensors are read, and the state at the last reading of the lists.
   Instants status_instants_;
   Instants sensor_instants_;
-  std::shared_ptr<const world::Layout> layout_;  // the layout of the last list of sensors
+  std::shared_ptr<const world::Layout> layout_;
+  std::uint64_t sensor_changes_ = 0;  // Simulation::sensor_changes()
 
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;  // notified when the queue gets an element or is closed

@@ -68,7 +68,7 @@ TEST_F(SimulationFeedTest, ClosingReleasesTheWaitingStep) {
   EXPECT_TRUE(feed.is_over());
 }
 
-TEST_F(SimulationFeedTest, SensorsAreListedWhenTheyAreNewAndOncePerSecond) {
+TEST_F(SimulationFeedTest, SensorsAreListedAtTheFirstSnapshot) {
   SimulationFeed feed(*simulation_, {});
   feed.OnSnapshot(simulation_->snapshot());
   feed.OnSnapshot(simulation_->snapshot());
@@ -80,6 +80,32 @@ TEST_F(SimulationFeedTest, SensorsAreListedWhenTheyAreNewAndOncePerSecond) {
   ASSERT_EQ(sensors->at("robot").size(), 1u);
   EXPECT_EQ(sensors->at("robot")[0].name, "front");
   EXPECT_EQ(std::get<Observation>(*second).sensors, nullptr);
+}
+
+TEST_F(SimulationFeedTest, CreatedSensorsAreListedAtTheNextSecond) {
+  SimulationFeed feed(*simulation_, {});
+  const auto lists_at = [&](base::SimTime time) {
+    auto snapshot = std::make_shared<world::Snapshot>(*simulation_->snapshot());
+    snapshot->state.time = time;
+    feed.OnSnapshot(snapshot);
+    return std::get<Observation>(*feed.Next(0ms)).sensors;
+  };
+  EXPECT_NE(lists_at(0s), nullptr);
+  EXPECT_EQ(lists_at(1s), nullptr);
+  model::SensorDescription back;
+  back.name = "back";
+  back.type = "sonar";
+  const std::shared_ptr<simulation::Agent> agent = simulation_->agent("robot");
+  ASSERT_TRUE(agent->CreateSensor(back));
+  EXPECT_EQ(lists_at(1500ms), nullptr);
+  const auto with_two = lists_at(2s);
+  ASSERT_NE(with_two, nullptr);
+  EXPECT_EQ(with_two->at("robot").size(), 2u);
+  EXPECT_EQ(lists_at(3s), nullptr);
+  ASSERT_TRUE(agent->CloseSensor("back"));
+  const auto with_one = lists_at(4s);
+  ASSERT_NE(with_one, nullptr);
+  EXPECT_EQ(with_one->at("robot").size(), 1u);
 }
 
 TEST_F(SimulationFeedTest, TheLastSnapshotIsTheCurrentState) {

@@ -45,8 +45,13 @@ class SensorDesigns {
   std::shared_ptr<const List> Of(const std::shared_ptr<const model::Model>& model);
   const sensing::SensorRegistry& types() const { return *types_; }
 
+  // Counts a sensor that was created on a robot, or removed from it.
+  void CountChange() { changes_.fetch_add(1); }
+  std::uint64_t changes() const { return changes_; }  // number of counted sensors
+
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
+  std::atomic<std::uint64_t> changes_{0};
   base::Mutex mutex_;
   // Never iterated, because the order of pointers differs between runs.
   std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_

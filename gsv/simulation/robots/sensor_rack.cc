@@ -68,6 +68,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
   }
   slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name)),
                 {std::make_shared<MountedSensor>(*design), true, true});
+  designs_.CountChange();
   return {};
 }
 
@@ -88,12 +89,15 @@ base::Status SensorRack::Close(const std::string& name) {
   if (!slot->is_created) return {};
   closed_readings_[slot->sensor->design().description.type] += slot->sensor->readings();
   slots_.erase(slot);
+  designs_.CountChange();
   return {};
 }
 
 void SensorRack::Reset() {
   const base::MutexLock lock(mutex_);
-  std::erase_if(slots_, [](const Slot& slot) { return slot.is_created; });
+  if (std::erase_if(slots_, [](const Slot& slot) { return slot.is_created; }) > 0) {
+    designs_.CountChange();
+  }
   for (Slot& slot : slots_) {
     slot.is_open = false;
     slot.sensor->Forget();

@@ -225,6 +225,8 @@ std::vector<model::SensorDescription> SteppingSimulation::sensors(const std::str
   return found == nullptr ? std::vector<model::SensorDescription>() : found->Sensors();
 }
 
+std::uint64_t SteppingSimulation::sensor_changes() const { return shared_->designs.changes(); }
+
 void SteppingSimulation::SetExpectations(std::weak_ptr<const ExpectationSource> source) {
   const base::MutexLock lock(expectations_mutex_);
   expectations_ = std::move(source);

@@ -69,6 +69,7 @@ class SteppingSimulation final : public Simulation {
   base::Result<sensing::Reading> Watch(const std::string& robot,
                                        const std::string& sensor) override;
   std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
+  std::uint64_t sensor_changes() const override;
   const sensing::SensorRegistry& sensor_types() const override { return *sensors_; }
   std::vector<Event> events(std::uint64_t first) const override { return events_.Since(first); }
   std::vector<Event> outputs(std::uint64_t first) const override {
