@@ -93,22 +93,22 @@ base::Status McapFileWriter::AddChannel(ChannelRecord channel) {
 }
 
 base::Status McapFileWriter::Write(const MessageRecord& message) {
-  record_.clear();
-  Append(record_, message);
-  return WriteEncoded(message.channel_id, message.log_time, record_);
-}
-
-base::Status McapFileWriter::WriteEncoded(std::uint16_t channel, base::SimTime log_time,
-                                          std::span<const std::byte> record) {
   GSV_CHECK(!closed_);
   if (!status_) return status_;
-  chunk_.Add(channel, log_time, record);
+  chunk_.Add(message);
   return chunk_.size() >= options_.chunk_size ? CloseChunk() : status_;
 }
 
 base::Status McapFileWriter::CloseChunk() {
-  if (!status_ || chunk_.empty()) return status_;
-  const ChunkBuilder::Chunk& chunk = chunk_.Take(position_);
+  return !status_ || chunk_.empty() ? status_ : Write(chunk_.Take(position_));
+}
+
+base::Status McapFileWriter::WriteChunk(std::span<const std::byte> records) {
+  GSV_CHECK(!closed_);
+  return CloseChunk() ? Write(chunk_.ChunkOf(records, position_)) : status_;
+}
+
+base::Status McapFileWriter::Write(const ChunkBuilder::Chunk& chunk) {
   const ChunkIndexRecord& index = chunk.index;
   WriteRaw(chunk.bytes);
   if (!status_) return status_;

@@ -65,6 +65,31 @@ TEST(McapFileWriter, BeginsWithTheMagicAndAHeader) {
                                                                30))));
 }
 
+TEST(McapFileWriter, WritesTheSameChunkOfMessagesAndOfTheirRecords) {
+  const auto recorded = [](bool as_records) {
+    Bytes bytes, records;
+    MemorySink sink(bytes);
+    McapFileWriter writer(sink, {});
+    EXPECT_TRUE(writer.AddSchema(SchemaOfClock()));
+    EXPECT_TRUE(writer.AddChannel(ChannelOf(3, "/a")) && writer.AddChannel(ChannelOf(1, "/b")));
+    for (const int ms : {40, 20, 60}) {
+      const Bytes data = ClockMessage(ms * 1ms);
+      const MessageRecord message{ms == 20 ? std::uint16_t{1} : std::uint16_t{3}, 0, ms * 1ms,
+                                  ms * 1ms, data};
+      EXPECT_TRUE(as_records || writer.Write(message));
+      Append(records, message);
+    }
+    EXPECT_TRUE(!as_records || writer.WriteChunk(records));
+    EXPECT_TRUE(writer.Close());
+    return bytes;
+  };
+  const Bytes bytes = recorded(true);
+  EXPECT_EQ(recorded(false), bytes);
+  const auto reader = Open(bytes);
+  ASSERT_TRUE(reader);
+  EXPECT_THAT(TimesIn(**reader).times, ElementsAre(20ms, 40ms, 60ms));
+}
+
 TEST(McapFileWriter, WritesDefinitionsBeforeTheirUse) {
   const Bytes bytes = ThreeChunks();
   std::vector<Opcode> kinds;

@@ -11,21 +11,10 @@
 namespace gsv::recording {
 namespace {
 
-// The writer's thread is woken only when this number of bytes is queued, not for each message.
-constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
-
-// Writes the records in `batch` one by one. Append() has encoded them one after the other.
-void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
-  const std::span<const std::byte> all = batch;
-  while (const std::optional<RawRecord> record = TakeRecord(batch)) {
+// Writes a record that is no message. Append() has encoded it.
+void WriteOther(McapFileWriter& file, std::span<const std::byte> encoded) {
+  while (const std::optional<RawRecord> record = TakeRecord(encoded)) {
     switch (record->opcode) {
-      case Opcode::kMessage: {
-        const MessageHead head = ReadMessageHead(record->content);
-        const std::size_t size = kRecordHeaderSize + record->content.size();
-        const std::size_t start = all.size() - batch.size() - size;
-        file.WriteEncoded(head.channel_id, head.log_time, all.subspan(start, size));
-        break;
-      }
       case Opcode::kSchema:
         file.AddSchema(*Parse<SchemaRecord>(record->content));
         break;
@@ -60,7 +49,7 @@ base::Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& 
 
 McapWriter::McapWriter(std::unique_ptr<ByteSink> sink, WriterOptions options)
     : options_(std::move(options)),
-      wake_at_(std::min(kWorthWaking, options_.queue_size)),
+      block_size_(std::min(options_.file.chunk_size, options_.queue_size)),
       sink_(std::move(sink)),
       thread_([this] { Run(); }) {}
 
@@ -87,64 +76,92 @@ base::Result<ChannelId> McapWriter::AddChannel(const std::string& topic,
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a recording may have at most 65,535 topics; record fewer", topic);
   }
-  const std::size_t before = queued();
+  Bytes records;
   if (type == schemas_.end()) {
     const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);
     type =
         schemas_.insert(type, SchemaRecord{id, std::string(schema.name),
                                            std::string(schema.encoding), std::string(schema.text)});
-    Append(queue_, *type);
+    Append(records, *type);
   }
   ChannelRecord channel{static_cast<ChannelId>(channels_.size()), type->id, topic, "cdr", {}};
   if (!options.reproducible) channel.metadata["reproducible"] = "false";
-  Append(queue_, channel);
-  WakeWriter(before);
+  Append(records, channel);
+  AddOther(std::move(records));
   sequences_.push_back(0);
   return channels_.emplace(topic, std::move(channel)).first->second.id;
 }
 
-void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data) {
+void McapWriter::Write(std::span<const Message> messages) {
   if (failed_) return;
   base::MutexLock lock(mutex_);
-  GSV_CHECK(channel < sequences_.size());
-  if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
+  for (const Message& message : messages) Enqueue(message, lock);
+}
+
+void McapWriter::Enqueue(const Message& message, base::MutexLock& lock) {
+  GSV_CHECK(message.channel < sequences_.size());
+  if (queued_ >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
     // The gap in the sequence numbers shows readers that a message was dropped.
-    ++sequences_[channel];
+    ++sequences_[message.channel];
     ++progress_.dropped;
     return;
   }
   if (!WaitForSpace(lock)) return;
-  const std::size_t before = queued();
-  Append(queue_, MessageRecord{channel, sequences_[channel]++, log_time, log_time, data});
+  if (blocks_.empty() || blocks_.back().size() >= block_size_) AddBlock();
+  Bytes& block = blocks_.back();
+  const std::size_t before = block.size();
+  Append(block, MessageRecord{message.channel, sequences_[message.channel]++, message.log_time,
+                              message.log_time, message.data});
   ++progress_.messages;
-  WakeWriter(before);
+  CountQueued(block.size() - before);
 }
 
 void McapWriter::Attach(const AttachmentRecord& attachment) {
   Bytes record;
   Append(record, attachment);
-  EnqueueWhole(std::move(record));
+  EnqueueOther(std::move(record));
 }
 
 void McapWriter::AddMetadata(const MetadataRecord& metadata) {
   Bytes record;
   Append(record, metadata);
-  EnqueueWhole(std::move(record));
+  EnqueueOther(std::move(record));
 }
 
-void McapWriter::EnqueueWhole(Bytes record) {
+void McapWriter::EnqueueOther(Bytes record) {
   base::MutexLock lock(mutex_);
-  if (!WaitForSpace(lock)) return;
-  const std::size_t before = queued();
-  whole_size_ += record.size();
-  whole_.push_back(std::move(record));
-  WakeWriter(before);
+  if (WaitForSpace(lock)) AddOther(std::move(record));
+}
+
+void McapWriter::AddOther(Bytes record) {
+  const std::size_t size = record.size();
+  others_.push_back(std::move(record));
+  CountQueued(size);
+}
+
+void McapWriter::AddBlock() {
+  if (empty_blocks_.empty()) {
+    blocks_.emplace_back().reserve(block_size_ + block_size_ / 16);
+  } else {
+    blocks_.push_back(std::move(empty_blocks_.back()));
+    empty_blocks_.pop_back();
+  }
+}
+
+std::vector<Bytes> McapWriter::TakeBlocks(bool all) {
+  std::vector<Bytes> blocks = std::exchange(blocks_, {});
+  if (!all && !blocks.empty() && blocks.back().size() < block_size_) {
+    blocks_.push_back(std::move(blocks.back()));
+    blocks.pop_back();
+  }
+  queued_ = blocks_.empty() ? 0 : blocks_.back().size();
+  return blocks;
 }
 
 // Waits until the queue has space. Returns false if the recording has ended.
 bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
-    return queued() < options_.queue_size || closing_ || !status_;
+    return queued_ < options_.queue_size || closing_ || !status_;
   };
   // Checks for space before wait_for(), which would read the clock. Usually there is space.
   if (!has_room() && !room_.wait_for(lock, options_.wait_limit, has_room)) {
@@ -155,21 +172,21 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   return status_.has_value() && !closing_;
 }
 
-// Wakes the writer's thread if the queue has just become long. `before` is the size of the queue
-// before the new record.
-void McapWriter::WakeWriter(std::size_t before) {
+void McapWriter::CountQueued(std::size_t size) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();
   }
-  if (before < wake_at_ && queued() >= wake_at_) work_.notify_one();
+  const bool was_short = queued_ < block_size_;
+  queued_ += size;
+  if (was_short && queued_ >= block_size_) work_.notify_one();
 }
 
 void McapWriter::EndWith(base::Error error) {
   if (status_) status_ = base::Fail(std::move(error));
   failed_ = true;
-  queue_.clear();
-  whole_.clear();
-  whole_size_ = 0;
+  blocks_.clear();
+  others_.clear();
+  queued_ = 0;
   room_.notify_all();
 }
 
@@ -203,12 +220,18 @@ McapWriter::Progress McapWriter::progress() const {
   return progress_;
 }
 
+void McapWriter::Reuse(Bytes block) {
+  if (block.capacity() > 2 * block_size_) return;  // it contained a large message
+  block.clear();
+  const base::MutexLock lock(mutex_);
+  empty_blocks_.push_back(std::move(block));
+}
+
 void McapWriter::Run() {
   McapFileWriter file(*sink_, options_.file);
   std::optional<BackgroundSync> disk(*sink_);
-  Bytes batch;
-  std::vector<Bytes> whole;
   for (bool closing = false; !closing;) {
+    std::vector<Bytes> blocks, others;
     bool flush = false;
     std::uint64_t dropped = 0;
     {
@@ -216,20 +239,22 @@ void McapWriter::Run() {
       progress_.bytes = file.bytes_written();
       if (!file.status() && status_) EndWith(file.status().error());
       if (const base::Status synced = disk->status(); !synced && status_) EndWith(synced.error());
-      work_.wait(lock,
-                 [&]() GSV_REQUIRES(mutex_) { return flush_ || closing_ || queued() >= wake_at_; });
-      batch.clear();
-      std::swap(batch, queue_);
-      whole = std::exchange(whole_, {});
-      whole_size_ = 0;
+      work_.wait(lock, [&]() GSV_REQUIRES(mutex_) {
+        return flush_ || closing_ || queued_ >= block_size_;
+      });
       flush = std::exchange(flush_, false);
       closing = closing_;
+      others = std::exchange(others_, {});
+      blocks = TakeBlocks(flush || closing);
       dropped = progress_.dropped;
     }
     room_.notify_all();
-    for (const Bytes& record : whole) WriteBatch(file, record);
-    WriteBatch(file, batch);
-    if (flush && file.CloseChunk()) disk->RequestSync();
+    for (const Bytes& record : others) WriteOther(file, record);
+    for (Bytes& block : blocks) {
+      file.WriteChunk(block);
+      Reuse(std::move(block));
+    }
+    if (flush && file.status()) disk->RequestSync();
     if (closing && dropped > 0) {
       file.AddMetadata({"gsv.recording", {{"dropped_messages", std::to_string(dropped)}}});
     }

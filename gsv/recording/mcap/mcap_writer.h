@@ -64,9 +64,19 @@ class McapWriter {
   [[nodiscard]] base::Result<ChannelId> AddChannel(const std::string& topic,
                                                    const messages::Schema& schema,
                                                    const ChannelOptions& options = {});
-  // Records a message. `data`, a CDR message of the channel's type, is copied. Messages of one
-  // channel keep their order. `log_time` must not be negative.
-  void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
+  // A message to record.
+  struct Message {
+    ChannelId channel = 0;
+    base::SimTime log_time{};         // must not be negative
+    std::span<const std::byte> data;  // a CDR message of the channel's type
+  };
+  // Records messages, whose data is copied. Messages of one channel keep their order. To pass
+  // several messages at once saves time.
+  void Write(std::span<const Message> messages);
+  void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data) {
+    const Message message{channel, log_time, data};
+    Write({&message, 1});
+  }
 
   // Attach() adds a file to the recording, AddMetadata() adds named values. Files and values are
   // never dropped: the caller waits while the queue is full.
@@ -92,31 +102,43 @@ class McapWriter {
   Progress progress() const;
 
  private:
-  // Enqueues a large record in its own buffer. Waits for space; drops the record only after an
-  // error.
-  void EnqueueWhole(Bytes record);
-  // The size of the queue, in bytes.
-  std::size_t queued() const GSV_REQUIRES(mutex_) { return queue_.size() + whole_size_; }
-  // Wakes the writer's thread if the queue has become long. `before` is the previous queued().
-  void WakeWriter(std::size_t before) GSV_REQUIRES(mutex_);
+  // Enqueues a message, or drops it.
+  void Enqueue(const Message& message, base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  // Enqueues another record. Waits for space; drops the record only after an error.
+  void EnqueueOther(Bytes record);
+  void AddOther(Bytes record) GSV_REQUIRES(mutex_);
+  // Adds an empty block to the queue.
+  void AddBlock() GSV_REQUIRES(mutex_);
+  // Updates queued_ after `size` bytes were enqueued. Wakes the writer's thread if a block is
+  // complete.
+  void CountQueued(std::size_t size) GSV_REQUIRES(mutex_);
+  // Keeps the memory of a written block.
+  void Reuse(Bytes block);
   // Waits until the queue has space. Returns false if the recording has ended.
   bool WaitForSpace(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   // Ends the recording early, and discards the queue.
   void EndWith(base::Error error) GSV_REQUIRES(mutex_);
+  // Removes all complete blocks from the queue. With `all`, also the last one, if it is incomplete.
+  std::vector<Bytes> TakeBlocks(bool all) GSV_REQUIRES(mutex_);
   // The function of thread_: writes the queue to the sink until Close().
   void Run();
 
   const WriterOptions options_;
-  const std::size_t wake_at_;  // number of queued bytes at which the thread is woken
+  // The size at which a block of messages is complete, and at which the writer's thread is woken,
+  // in bytes.
+  const std::size_t block_size_;
   const std::unique_ptr<ByteSink> sink_;
 
   mutable base::Mutex mutex_;
   // Notified when there is work for the writer's thread.
   base::ConditionVariable work_;
-  base::ConditionVariable room_;                       // notified when producers may continue
-  Bytes queue_ GSV_GUARDED_BY(mutex_);                 // encoded records in the form of the file
-  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);    // large records, each in its own buffer
-  std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;  // number of bytes in whole_
+  base::ConditionVariable room_;  // notified when producers may continue
+  // The queue: blocks of encoded messages, each of which becomes a chunk of the file, and other
+  // encoded records, which are written before the messages. The last block may be incomplete.
+  std::vector<Bytes> blocks_ GSV_GUARDED_BY(mutex_);
+  std::vector<Bytes> others_ GSV_GUARDED_BY(mutex_);
+  std::size_t queued_ GSV_GUARDED_BY(mutex_) = 0;           // size of the queue, in bytes
+  std::vector<Bytes> empty_blocks_ GSV_GUARDED_BY(mutex_);  // written blocks, for reuse
   bool flush_ GSV_GUARDED_BY(mutex_) = false;    // whether the thread must flush the sink next
   bool closing_ GSV_GUARDED_BY(mutex_) = false;  // whether Close() was called
   // Wall-clock time at which the oldest message that is not flushed was queued; zero if there is
