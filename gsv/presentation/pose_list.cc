@@ -18,18 +18,11 @@ std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
                                     const std::vector<PoseEntry>& list) {
   std::vector<geometry::Pose> poses;
   poses.reserve(list.size());
-  std::vector<geometry::Pose> links;  // link poses of the body with the index `links_of`
-  int links_of = -1;
   for (const PoseEntry& entry : list) {
-    if (entry.link < 0) {
-      poses.push_back(snapshot.state.bodies[entry.body].world_from_model);
-      continue;
-    }
-    if (links_of != entry.body) {
-      links = world::LinkPoses(snapshot, entry.body);
-      links_of = entry.body;
-    }
-    poses.push_back(links[entry.link]);
+    const geometry::Pose& world_from_model = snapshot.state.bodies[entry.body].world_from_model;
+    poses.push_back(entry.link < 0 ? world_from_model
+                                   : world_from_model *
+                                         world::ModelFromLink(snapshot, entry.body, entry.link));
   }
   return poses;
 }

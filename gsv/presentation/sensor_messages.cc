@@ -26,15 +26,14 @@ Marker MarkerOf(const std::string& robot, base::SimTime time) {
 
 // Returns a marker that draws a line between each pair of points.
 Marker LinesOf(const std::string& robot, base::SimTime time,
-               const std::vector<geometry::Vector3>& points_in_world) {
+               const std::vector<messages::geometry_msgs::Point>& points_in_world) {
   Marker marker = MarkerOf(robot, time);
   marker.scale.x = 0.01;  // width of the lines, m
   marker.color.r = 0.2f;
   marker.color.g = 0.8f;
   marker.color.b = 1.0f;
   marker.color.a = 0.8f;
-  marker.points.reserve(points_in_world.size());
-  for (const geometry::Vector3& p : points_in_world) marker.points.push_back({p.x, p.y, p.z});
+  marker.points = points_in_world;
   return marker;
 }
 
@@ -93,35 +92,45 @@ bool HasLines(const sensing::SensorType& type, const model::SensorDescription& s
 void BeamMarkers::Add(const world::Snapshot& snapshot, int body, const sensing::SensorType& type,
                       const sensing::Sensor& sensor, const sensing::Reading& reading) {
   const model::SensorDescription& description = sensor.description();
-  std::vector<geometry::Vector3>& points =
-      points_[snapshot.layout->bodies[static_cast<std::size_t>(body)].name];
-  if (!HasLines(type, description)) return;
-  if (body != body_ || description.link != link_) {
-    world_from_link_ = world::LinkPose(snapshot, body, description.link);
+  if (body != body_) {
+    lines_of_body_ = &lines_[snapshot.layout->bodies[static_cast<std::size_t>(body)].name];
+    lines_of_body_->is_present = true;
     body_ = body;
+    link_ = -1;
+  }
+  if (!HasLines(type, description)) return;
+  if (description.link != link_) {
     link_ = description.link;
+    world_from_link_ = world::LinkPose(snapshot, body, link_);
   }
   const geometry::Pose world_from_sensor = world_from_link_ * description.link_from_sensor;
   const bool as_points = type.overlay == sensing::Overlay::kPoints;
+  const auto add = [&](const geometry::Vector3& in_sensor) {
+    const geometry::Vector3 in_world = world_from_sensor * in_sensor;
+    lines_of_body_->points.push_back({in_world.x, in_world.y, in_world.z});
+  };
   for (const sensing::Segment& beam : sensor.Beams(reading)) {
-    const geometry::Vector3 from = as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from;
-    points.push_back(world_from_sensor * from);
-    points.push_back(world_from_sensor * beam.to);
+    add(as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from);
+    add(beam.to);
   }
 }
 
 messages::visualization_msgs::MarkerArray BeamMarkers::Take(base::SimTime time) {
   messages::visualization_msgs::MarkerArray message;
+  message.markers.reserve(lines_.size());
   body_ = -1;
-  for (auto known = deletions_left_.begin(); known != deletions_left_.end();) {
-    auto& [robot, left] = *known;
-    const bool is_gone = !points_.contains(robot);
-    if (is_gone) message.markers.push_back(NoLinesOf(robot, time));
-    known = is_gone && --left == 0 ? deletions_left_.erase(known) : std::next(known);
+  for (auto known = lines_.begin(); known != lines_.end();) {
+    auto& [robot, lines] = *known;
+    if (!lines.is_present) message.markers.push_back(NoLinesOf(robot, time));
+    const bool is_over = !lines.is_present && --lines.deletions_left == 0;
+    known = is_over ? lines_.erase(known) : std::next(known);
   }
-  for (const auto& [robot, points] : std::exchange(points_, {})) {
-    deletions_left_[robot] = kDeletions;
-    message.markers.push_back(LinesOf(robot, time, points));
+  for (auto& [robot, lines] : lines_) {
+    if (!lines.is_present) continue;
+    message.markers.push_back(LinesOf(robot, time, lines.points));
+    lines.points.clear();
+    lines.is_present = false;
+    lines.deletions_left = kDeletions;
   }
   return message;
 }

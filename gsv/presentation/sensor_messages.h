@@ -48,16 +48,20 @@ class BeamMarkers {
   messages::visualization_msgs::MarkerArray Take(base::SimTime time);
 
  private:
-  // Points in the world frame, by robot.
-  std::map<std::string, std::vector<geometry::Vector3>> points_;
-  // The body and the link of the last Add(), and the pose of this link. Add() reuses the pose,
-  // because most robots have all their sensors on one link.
+  // The lines of one robot.
+  struct Lines {
+    bool is_present = false;  // whether Add() was called for the robot since the last Take()
+    std::vector<messages::geometry_msgs::Point> points{};  // pairs of points, in the world frame
+    // The number of messages that will contain the deletion of the lines, if there are no more.
+    int deletions_left = 0;
+  };
+  std::map<std::string, Lines> lines_;  // by robot
+  // The body and the link of the last Add(), the pose of this link, and the lines of the body. Add()
+  // reuses them, because most robots have all their sensors on one link.
   int body_ = -1;
   int link_ = -1;
   geometry::Pose world_from_link_;
-  // For each robot that had lines: the number of messages that will contain the deletion of these
-  // lines after the robot has no more lines.
-  std::map<std::string, int> deletions_left_;
+  Lines* lines_of_body_ = nullptr;
 };
 
 }  // namespace gsv::presentation

@@ -23,17 +23,23 @@ inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::st
   return HeaderOf(reading.time, frame_id);
 }
 
-// Returns the message in CDR.
-template <typename Message>
-std::vector<std::uint8_t> Encoded(const Message& message) {
+// Returns the bytes that `append` appends to the vector that it gets.
+template <typename Append>
+std::vector<std::uint8_t> Appended(Append append) {
   constexpr std::size_t kMaxKept = std::size_t{1} << 16;  // bytes
   static thread_local messages::Bytes bytes;              // the memory of short messages is reused
   bytes.clear();
-  messages::Encode(message, bytes);
+  append(bytes);
   const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
   std::vector<std::uint8_t> encoded(begin, begin + bytes.size());
   if (bytes.capacity() > kMaxKept) messages::Bytes().swap(bytes);
   return encoded;
+}
+
+// Returns the message in CDR.
+template <typename Message>
+std::vector<std::uint8_t> Encoded(const Message& message) {
+  return Appended([&](messages::Bytes& bytes) { messages::Encode(message, bytes); });
 }
 
 }  // namespace gsv::sensing

@@ -21,8 +21,9 @@ class ForwardingSensor : public Sensor {
   }
   bool TakesLong() const override { return sensor_->TakesLong(); }
   bool CastsRays() const override { return sensor_->CastsRays(); }
-  base::Result<Bytes> Encode(const Reading& reading, const std::string& frame_id) const override {
-    return sensor_->Encode(reading, frame_id);
+  base::Status AppendMessage(const Reading& reading, const std::string& frame_id,
+                             messages::Bytes& out) const override {
+    return sensor_->AppendMessage(reading, frame_id, out);
   }
   Bytes EncodeCompanion(base::SimTime time, const std::string& frame_id) const override {
     return sensor_->EncodeCompanion(time, frame_id);

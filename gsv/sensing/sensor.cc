@@ -1,5 +1,9 @@
 #include "gsv/sensing/sensor.h"
 
+#include <utility>
+
+#include "gsv/sensing/encoding.h"
+
 namespace gsv::sensing {
 namespace {
 
@@ -29,6 +33,15 @@ double Sampling::Range(const Ray& ray) const {
   // If gathering fails, it is not tried again for the next rays.
   if (!has_gathered_) expected_rays_ = 0;
   return has_gathered_ ? scene.Range(ray, body_, *candidates_) : scene.Range(ray, body_);
+}
+
+base::Result<Sensor::Bytes> Sensor::Encode(const Reading& reading,
+                                           const std::string& frame_id) const {
+  base::Status status;
+  Bytes bytes =
+      Appended([&](messages::Bytes& out) { status = AppendMessage(reading, frame_id, out); });
+  if (!status) return base::Fail(std::move(status.error()));
+  return bytes;
 }
 
 }  // namespace gsv::sensing

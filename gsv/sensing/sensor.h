@@ -15,6 +15,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/random.h"
+#include "gsv/messages/cdr.h"
 #include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/sensing/reading.h"
@@ -141,13 +142,15 @@ class Sensor {
   virtual const Beam* beam() const { return nullptr; }
 
   using Bytes = std::vector<std::uint8_t>;
-  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. If the type
-  // has no message, returns no bytes. Fails with kCorrupt if the reading does not have the size of
-  // the type's layout.
-  virtual base::Result<Bytes> Encode(const Reading& /*reading*/,
-                                     const std::string& /*frame_id*/) const {
-    return Bytes();
+  // Appends a reading to `out` as the type's message, in CDR; `frame_id` is the sensor's frame. If
+  // the type has no message, appends nothing. Fails with kCorrupt if the reading does not have the
+  // size of the type's layout.
+  virtual base::Status AppendMessage(const Reading& /*reading*/, const std::string& /*frame_id*/,
+                                     messages::Bytes& /*out*/) const {
+    return {};
   }
+  // Returns the message that AppendMessage() appends.
+  base::Result<Bytes> Encode(const Reading& reading, const std::string& frame_id) const;
   // Encodes the companion message: a second message beside the message of a reading, such as the
   // camera_info of an image (Companion in registry.h). Returns no bytes if the type has none.
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {

@@ -33,13 +33,14 @@ class SensorOf : public Base {
   using Message = MessageType;
   using Base::Base;
 
-  base::Result<Sensor::Bytes> Encode(const Reading& reading,
-                                     const std::string& frame_id) const final {
+  base::Status AppendMessage(const Reading& reading, const std::string& frame_id,
+                             messages::Bytes& out) const final {
     const auto values = ValuesOf<Values>(reading, this->description().name);
     if (!values) return base::Fail(values.error());
     Message message = ToMessage(*values, reading, frame_id);
     if (message.header.frame_id.empty()) message.header = HeaderOf(reading, frame_id);
-    return Encoded(message);
+    messages::Encode(message, out);
+    return {};
   }
   std::vector<Segment> Beams(const Reading& reading) const final {
     const auto values = ValuesOf<Values>(reading, this->description().name);

@@ -30,6 +30,7 @@ base::SimTime PeriodOf(const model::SensorDescription& description, double rate)
 }  // namespace
 
 struct SensorRecorder::Sensor {
+  std::string topic;
   std::string robot;
   std::string frame;
   const sensing::SensorType* type = nullptr;
@@ -77,6 +78,8 @@ void SensorRecorder::SetSensors(const SensorLists& lists, const world::Snapshot&
   }
   if (found == sensors_) return;
   sensors_ = std::move(found);
+  in_order_.clear();
+  for (const auto& [topic, sensor] : sensors_) in_order_.push_back(sensor.get());
   next_due_ = base::SimTime(0);
   layout_ = nullptr;
   WriteTransforms(snapshot);
@@ -102,7 +105,8 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
   }
   if ((*sensor)->TakesLong() && !options_.slow_sensors) return nullptr;
   const double rate = (*sensor)->TakesLong() ? options_.rates.images : options_.rates.readings;
-  return std::make_shared<Sensor>(Sensor{.robot = robot,
+  return std::make_shared<Sensor>(Sensor{.topic = topic,
+                                         .robot = robot,
                                          .frame = presentation::FrameOf(robot, description.name),
                                          .type = type,
                                          .messages = std::move(sent),
@@ -130,11 +134,11 @@ void SensorRecorder::RecordDue(const std::shared_ptr<const world::Snapshot>& sna
   none_due_from_ = snapshot->state.time;
   next_due_ = base::SimTime::max();
   sensing::Sampling sampling(snapshot, 0, seed_, rays_);
-  std::vector<Sample> of_robot;
+  std::size_t of_robot = 0;  // number of samples of the present robot in robot_samples_
   std::vector<Sample> slow;
   const auto take_of_robot = [&] {
-    if (!of_robot.empty()) TakeRobotSamples(sampling, of_robot);
-    of_robot.clear();
+    if (of_robot > 0) TakeRobotSamples(sampling, std::span(robot_samples_).first(of_robot));
+    of_robot = 0;
   };
   const auto take_slow = [&] {
     if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
@@ -143,23 +147,23 @@ void SensorRecorder::RecordDue(const std::shared_ptr<const world::Snapshot>& sna
         Take({snapshot, slow[i].sensor->body, seed_, rays_}, slow[i]);
       }
     });
-    for (Sample& sample : slow) Write(sample);
+    Write(slow);
     slow.clear();
   };
-  for (const auto& [topic, sensor] : sensors_) {
+  for (Sensor* const sensor : in_order_) {
     const bool is_due = sensor->instants.AdvanceTo(snapshot->state.time);
     next_due_ = std::min(next_due_, sensor->instants.next());
     if (!is_due || sensor->has_failed) continue;
     if (sensor->body < 0) continue;
-    Sample sample{&topic, sensor.get(), {}, {}, {}};
     if (sensor->sensor->TakesLong()) {
-      slow.push_back(std::move(sample));
+      slow.push_back({sensor});
       if (slow.size() < kMaxSlowSensors) continue;
       take_of_robot();
       take_slow();
     } else {
-      if (!of_robot.empty() && of_robot.back().sensor->body != sensor->body) take_of_robot();
-      of_robot.push_back(std::move(sample));
+      if (of_robot > 0 && robot_samples_[0].sensor->body != sensor->body) take_of_robot();
+      if (of_robot == robot_samples_.size()) robot_samples_.emplace_back();
+      robot_samples_[of_robot++].sensor = sensor;
     }
   }
   take_of_robot();
@@ -191,8 +195,8 @@ void SensorRecorder::TakeRobotSamples(sensing::Sampling& sampling, std::span<Sam
     } else {
       Take(sampling, sample);
     }
-    Write(sample);
   }
+  Write(samples);
 }
 
 void SensorRecorder::Take(const sensing::Sampling& sampling, Sample& sample) const {
@@ -206,40 +210,49 @@ void SensorRecorder::Encode(Sample& sample) const {
     sample.companion = sensor.sensor->EncodeCompanionOf(*sample.reading, sensor.frame);
   }
   if (!sensor.is_wanted) return;
-  auto message = Encode(sensor, *sample.reading);
-  if (message) {
-    sample.message = *std::move(message);
-  } else {
-    sample.reading = base::Fail(message.error());
+  sample.message.clear();
+  if (base::Status status = AppendMessage(sensor, *sample.reading, sample.message); !status) {
+    sample.reading = base::Fail(std::move(status.error()));
   }
 }
 
-void SensorRecorder::Write(Sample& sample) {
+void SensorRecorder::Write(std::span<Sample> samples) {
+  messages_.clear();
+  for (Sample& sample : samples) {
+    if (!AddMessages(sample)) sample.sensor->has_failed = true;
+  }
+  writer_.Write(messages_);
+  for (Sample& sample : samples) {
+    if (sample.sensor->has_beams && !sample.sensor->has_failed) {
+      sample.sensor->newest = *std::move(sample.reading);
+    }
+  }
+}
+
+bool SensorRecorder::AddMessages(Sample& sample) {
   Sensor& sensor = *sample.sensor;
   if (!sample.reading) {
-    sensor.has_failed = true;
-    return WarnOnce(sample.reading.error());
+    WarnOnce(sample.reading.error());
+    return false;
   }
   const base::SimTime time = sample.reading->time;
   if (sensor.is_wanted) {
-    if (!sensor.channel) sensor.channel = AddChannel(*sample.topic, *sensor.messages.schema);
-    if (!sensor.channel) {
-      sensor.has_failed = true;
-      return;
-    }
-    writer_.Write(*sensor.channel, time, std::as_bytes(std::span(sample.message)));
+    if (!sensor.channel) sensor.channel = AddChannel(sensor.topic, *sensor.messages.schema);
+    if (!sensor.channel) return false;
+    messages_.push_back({*sensor.channel, time, sample.message});
   }
   if (sensor.has_companion) {
     const sensing::Companion& type = *sensor.messages.companion;
     if (!sensor.companion_channel) {
       sensor.companion_channel =
-          AddChannel(presentation::CompanionTopic(*sample.topic, type), *type.schema);
+          AddChannel(presentation::CompanionTopic(sensor.topic, type), *type.schema);
     }
     sensor.has_companion = sensor.companion_channel.has_value();
-    if (!sensor.has_companion) return;
-    writer_.Write(*sensor.companion_channel, time, std::as_bytes(std::span(sample.companion)));
+    if (!sensor.has_companion) return true;
+    messages_.push_back(
+        {*sensor.companion_channel, time, std::as_bytes(std::span(sample.companion))});
   }
-  if (sensor.has_beams) sensor.newest = *std::move(sample.reading);
+  return true;
 }
 
 std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
@@ -250,21 +263,22 @@ std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
   return std::nullopt;
 }
 
-base::Result<std::vector<std::uint8_t>> SensorRecorder::Encode(
-    const Sensor& sensor, const sensing::Reading& reading) const {
+base::Status SensorRecorder::AppendMessage(const Sensor& sensor, const sensing::Reading& reading,
+                                           Bytes& out) const {
   using messages::sensor_msgs::CompressedImage;
-  const bool is_image = sensor.messages.schema == &messages::SchemaOf<CompressedImage>() &&
-                        reading.image != nullptr && options_.write_png;
+  const bool is_image = reading.image != nullptr && options_.write_png &&
+                        sensor.messages.schema == &messages::SchemaOf<CompressedImage>();
   if (is_image) {
     if (auto png = options_.write_png(*reading.image)) {
       CompressedImage message;
       message.header = sensing::HeaderOf(reading, sensor.frame);
       message.format = "png";
       message.data = *std::move(png);
-      return sensing::Encoded(message);
+      messages::Encode(message, out);
+      return {};
     }
   }
-  return sensor.sensor->Encode(reading, sensor.frame);
+  return sensor.sensor->AppendMessage(reading, sensor.frame, out);
 }
 
 void SensorRecorder::WriteTransforms(const world::Snapshot& snapshot) {
@@ -279,7 +293,7 @@ void SensorRecorder::WriteTransforms(const world::Snapshot& snapshot) {
 }
 
 void SensorRecorder::WriteBeams(const world::Snapshot& snapshot) {
-  for (const auto& [topic, sensor] : sensors_) {
+  for (const Sensor* const sensor : in_order_) {
     if (!sensor->newest || sensor->body < 0) continue;
     beam_markers_.Add(snapshot, sensor->body, *sensor->type, *sensor->sensor, *sensor->newest);
   }

@@ -65,11 +65,11 @@ class SensorRecorder {
   void RecordDue(const std::shared_ptr<const world::Snapshot>& snapshot);
   // A due reading of one sensor, with its encoded messages.
   struct Sample {
-    const std::string* topic = nullptr;  // key of the sensor in sensors_
     Sensor* sensor = nullptr;
-    base::Result<sensing::Reading> reading;  // the reading, or why it could not be taken
-    std::vector<std::uint8_t> message;       // empty if only the sensor's beams are recorded
-    std::vector<std::uint8_t> companion;     // message such as CameraInfo; empty if there is none
+    base::Result<sensing::Reading> reading{};  // the reading, or why it could not be taken
+    Bytes message{};                           // empty if only the sensor's beams are recorded
+    // A message such as CameraInfo; empty if there is none.
+    std::vector<std::uint8_t> companion{};
   };
   // The sensors with beams of one robot that were last sampled together. A new set is made only if
   // the next sample is of different sensors.
@@ -88,12 +88,15 @@ class SensorRecorder {
   void TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples);
   // Updates the body index of each sensor for this layout.
   void FindBodies(const std::shared_ptr<const world::Layout>& layout);
-  // Writes the messages of a sample. If the sensor has beams, keeps the reading for WriteBeams().
-  void Write(Sample& sample);
+  // Writes the messages of the samples. If a sensor has beams, keeps its reading for WriteBeams().
+  void Write(std::span<Sample> samples);
+  // Adds the messages of a sample to messages_. Returns false if the sensor cannot be recorded.
+  bool AddMessages(Sample& sample);
   // Adds a channel. On failure, logs a warning and returns nullopt.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
-  base::Result<std::vector<std::uint8_t>> Encode(const Sensor& sensor,
-                                                 const sensing::Reading& reading) const;
+  // Appends the message of a reading to `out`.
+  base::Status AppendMessage(const Sensor& sensor, const sensing::Reading& reading,
+                             Bytes& out) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
   // Logs a warning for the first sensor that cannot be recorded. Further ones are not logged,
@@ -108,16 +111,19 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // samples slow sensors; null if there are none
   Sensors sensors_;                         // the recorded sensors, by topic
+  std::vector<Sensor*> in_order_;           // the sensors in sensors_, in the same order
   // No reading is due at times t with none_due_from_ <= t < next_due_.
   base::SimTime none_due_from_{0}, next_due_{0};
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
-  // Working memory of TakeRobotSamples(): the sensors of one robot that have a beam and whose
-  // reading is due, and the values that their beams return.
+  // Working memory of RecordDue(): the samples of one robot, the sensors of these samples that have
+  // a beam, and the values that these beams return.
+  std::vector<Sample> robot_samples_;
   std::vector<const Sensor*> due_beams_;
   std::vector<double> beam_values_;
-  Instants beams_instants_;  // instants at which beams are recorded
+  std::vector<McapWriter::Message> messages_;  // working memory of Write()
+  Instants beams_instants_;                    // instants at which beams are recorded
   presentation::BeamMarkers beam_markers_;
   bool has_warned_ = false;  // whether WarnOnce() has logged a warning
 
