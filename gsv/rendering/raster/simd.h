@@ -49,6 +49,10 @@ F SplatGroups(const float (&values)[Lanes<F>::kGroups]);
 // Returns a vector in which all lanes of the n-th group have the value of lane `first` + n.
 template <class F>
 F FromLanes(F8 values, int first);
+template <class F>
+typename Lanes<F>::Ints FromLanes(I8 values, int first) {
+  return (typename Lanes<F>::Ints)FromLanes<F>((F8)values, first);
+}
 // Returns a vector with the value of the n-th group in lane n.
 template <class F>
 F8 OfGroups(const float (&values)[Lanes<F>::kGroups]);
@@ -98,15 +102,11 @@ inline I8 SelectInt(I8 mask, I8 a, I8 b) {
 }
 inline I8 Less(F8 a, F8 b) { return a < b; }
 inline I8 AtLeast(F8 a, F8 b) { return a >= b; }
-inline I8 LessInt(I8 a, I8 b) { return a < b; }
 inline I8 EqualInt(I8 a, I8 b) { return a == b; }
 // Returns a mask with one bit per lane: bit i is set if lane i of `mask` is set.
 inline int Bits(I8 mask) { return _mm256_movemask_ps((__m256)mask); }
 inline F8 Gather(const float* from, I8 index) {
   return _mm256_i32gather_ps(from, (__m256i)index, 4);
-}
-inline I8 GatherInt(const void* from, I8 index) {
-  return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
 // The shuffle that moves byte K of each of four elements to its lowest byte, and clears the others.
 template <int K>
@@ -133,6 +133,25 @@ inline I8x2 GatherPairs(const void* from, I8 index) {
   const __m256 low = gather(_mm256_castsi256_si128(halves));
   const __m256 high = gather(_mm256_extracti128_si256(halves, 1));
   return {(I8)_mm256_shuffle_ps(low, high, 0x88), (I8)_mm256_shuffle_ps(low, high, 0xdd)};
+}
+// Returns table[index] for each lane, without gathering.
+template <class F>
+F FromTable(const float (&table)[16], typename Lanes<F>::Ints index);
+template <class F>
+typename Lanes<F>::Ints FromTable(const std::int32_t (&table)[16], typename Lanes<F>::Ints index);
+template <>
+inline F8 FromTable<F8>(const float (&table)[16], I8 index) {
+  const auto half = [&](int first) {
+    return _mm256_permutevar8x32_ps(Load(table + first), (__m256i)index);
+  };
+  return Select(index < SplatInt(8), half(0), half(8));
+}
+template <>
+inline I8 FromTable<F8>(const std::int32_t (&table)[16], I8 index) {
+  const auto half = [&](int first) {
+    return (I8)_mm256_permutevar8x32_epi32((__m256i)LoadInt(table + first), (__m256i)index);
+  };
+  return SelectInt(index < SplatInt(8), half(0), half(8));
 }
 // Loads the byte from[index] for each lane. Reads up to three bytes beyond each element.
 inline I8 GatherByte(const std::uint8_t* from, I8 index) {
@@ -184,15 +203,9 @@ inline I8 AnyOfEight(I8 mask) { return SplatInt(Bits(mask) != 0 ? -1 : 0); }
 // Returns a vector in which all lanes of the n-th group of eight lanes have the value of lane n.
 template <class F>
 F ByGroup(F8 values);
-template <class F>
-typename Lanes<F>::Ints ByGroup(I8 values);
 template <>
 inline F8 ByGroup<F8>(F8 values) {
   return _mm256_broadcastss_ps(_mm256_castps256_ps128(values));
-}
-template <>
-inline I8 ByGroup<F8>(I8 values) {
-  return (I8)_mm256_broadcastd_epi32(_mm256_castsi256_si128((__m256i)values));
 }
 // Stores the elements of those lanes that are set in `mask`. Other threads must not write the other
 // lanes' elements.
@@ -290,7 +303,6 @@ inline I16 SelectInt(Mask16 mask, I16 a, I16 b) {
 }
 inline Mask16 Less(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)}; }
 inline Mask16 AtLeast(F16 a, F16 b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_OQ)}; }
-inline Mask16 LessInt(I16 a, I16 b) { return {_mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b)}; }
 inline Mask16 EqualInt(I16 a, I16 b) { return {_mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b)}; }
 // GCC 12 may store a mask as 16 bits and then read 32 bits, so the conversion is explicit.
 inline int Bits(Mask16 mask) {
@@ -302,9 +314,6 @@ inline bool Any(Mask16 mask) { return _kortestz_mask16_u8(mask.bits, mask.bits) 
 template <>
 inline Mask16 MaskOf<F16>(int bits) {
   return {static_cast<__mmask16>(bits)};
-}
-inline I16 GatherInt(const void* from, I16 index) {
-  return (I16)_mm512_i32gather_epi32((__m512i)index, from, 4);
 }
 template <int K>
 I16 Byte(I16 a) {
@@ -320,6 +329,14 @@ inline I16x2 GatherPairs(const void* from, I16 index) {
   const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
   return {(I16)_mm512_permutex2var_epi32(low, even, high),
           (I16)_mm512_permutex2var_epi32(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high)};
+}
+template <>
+inline F16 FromTable<F16>(const float (&table)[16], I16 index) {
+  return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
+}
+template <>
+inline I16 FromTable<F16>(const std::int32_t (&table)[16], I16 index) {
+  return (I16)_mm512_permutexvar_epi32((__m512i)index, _mm512_loadu_si512(table));
 }
 inline I16 GatherByte(const std::uint8_t* from, I16 index) {
   return (I16)_mm512_i32gather_epi32((__m512i)index, from, 1) & SplatInt<F16>(0xff);
@@ -355,10 +372,6 @@ template <>
 inline F16 ByGroup<F16>(F8 values) {
   const __m512i group = _mm512_set_epi32(1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0);
   return _mm512_permutexvar_ps(group, _mm512_castps256_ps512(values));
-}
-template <>
-inline I16 ByGroup<F16>(I8 values) {
-  return (I16)ByGroup<F16>((F8)values);
 }
 
 #pragma GCC pop_options

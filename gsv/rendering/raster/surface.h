@@ -61,8 +61,8 @@ F LevelsAt(const PlaneLanes<F>& for_w, const PlaneLanes<F>& for_u, const PlaneLa
   const F inverse_w = at(for_w);
   const F w = Splat<F>(1) / inverse_w;
   const F u = at(for_u) * w, v = at(for_v) * w;
-  const F width = Splat<F>(static_cast<float>(texture.levels[0].width));
-  const F height = Splat<F>(static_cast<float>(texture.levels[0].height));
+  const F width = Splat<F>(texture.width[0]);
+  const F height = Splat<F>(texture.height[0]);
   const auto squared = [&](F by_u, F by_v, F by_w) {
     const F du = (by_u - u * by_w) * width, dv = (by_v - v * by_w) * height;
     return du * du + dv * dv;
@@ -161,40 +161,25 @@ F8 MiddlesOf(int lanes) {
   return OfGroups<F>(middles);
 }
 
-// The pixels of a vector that see a triangle.
+// The pixels of a vector, all of which see a triangle.
 template <class F>
 struct SeenPixels {
-  // `lanes` has a bit for each pixel, set if it sees the triangle. At least one must be set.
-  SeenPixels(const TriangleSurface& of, const Pixels<F>& at, int lanes)
+  SeenPixels(const TriangleSurface& of, const Pixels<F>& pixels)
       : surface(of),
-        pixels(at),
-        seen(lanes),
-        dx(at.ColumnsFrom(of.x0)),
-        dy(at.RowsFrom(of.y0)),
+        dx(pixels.ColumnsFrom(of.x0)),
+        dy(pixels.RowsFrom(of.y0)),
         w(Splat<F>(1) / of.At(TriangleSurface::kInverseW, dx, dy)) {}
 
-  // Looks up a texture at the pixels. Eight pixels have one level of detail: that at the middle of
-  // those of them that see the triangle.
-  Texels<F> Look(const RasterTexture& texture) const {
-    using Plane = PlaneLanes<F8>;
-    float first_dx[Lanes<F>::kGroups], group_dy[Lanes<F>::kGroups];
-    for (int i = 0; i < Lanes<F>::kGroups; ++i) {
-      first_dx[i] = static_cast<float>(pixels.x[i]) - surface.x0;
-      group_dy[i] = static_cast<float>(pixels.y[i]) - surface.y0;
-    }
-    const F8 levels =
-        LevelsAt<F8>(Plane(surface, TriangleSurface::kInverseW),
-                     Plane(surface, TriangleSurface::kU), Plane(surface, TriangleSurface::kV),
-                     OfGroups<F>(first_dx) + MiddlesOf<F>(seen), OfGroups<F>(group_dy), texture);
-    const MipLevels<F8> of_groups(texture, levels);
-    return Sample(texture, MipLevels<F>{ByGroup<F>(of_groups.fine), ByGroup<F>(of_groups.share)},
-                  surface.At(TriangleSurface::kU, dx, dy) * w,
-                  surface.At(TriangleSurface::kV, dx, dy) * w, MaskOf<F>(seen));
+  // Looks up a texture at the pixels. The n-th group has the level of detail in lane `first` + n of
+  // `levels`.
+  Texels<F> Look(const RasterTexture& texture, const MipLevels<F8>& levels, int first) const {
+    const MipLevels<F> of_groups{FromLanes<F>(levels.fine, first),
+                                 FromLanes<F>(levels.share, first)};
+    return Sample(texture, of_groups, surface.At(TriangleSurface::kU, dx, dy) * w,
+                  surface.At(TriangleSurface::kV, dx, dy) * w, MaskOf<F>(-1));
   }
 
   const TriangleSurface& surface;
-  const Pixels<F>& pixels;
-  int seen;
   F dx, dy;  // distances from the triangle's x0 and y0
   F w;       // distance along the view
 };

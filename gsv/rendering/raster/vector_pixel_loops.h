@@ -70,7 +70,11 @@ class VectorPixelLoops final : public PixelLoops {
   void Shade(const TileToShade& tile) override {
     const Lamps<F> lamps = tile.is_empty ? Lamps<F>() : light_->Reaching(tile.min, tile.max);
     for (int y = tile.y0; y < tile.y1; y += kGroups) {
-      for (int x = tile.x0; x < tile.x1; x += 8) Shade(lamps, x, y);
+      for (int x = tile.x0; x < tile.x1;) {
+        const int vectors = ShadeRun(lamps, x, y, tile.x1);
+        if (vectors == 0) Shade(lamps, x, y);
+        x += 8 * std::max(vectors, 1);
+      }
     }
   }
 
@@ -222,6 +226,71 @@ class VectorPixelLoops final : public PixelLoops {
     return surface;
   }
 
+  // Returns how many vectors from (x, y) on, and before column `end`, see only triangle number `id`.
+  int VectorsOf(std::uint32_t id, int x, int y, int end) const {
+    const Ints wanted = SplatInt<F>(static_cast<std::int32_t>(id));
+    int count = 0;
+    for (; x + 8 <= end; x += 8, ++count) {
+      const Ints ids = LoadGroupInts<F>(image_.nearest, PixelsAt(x, y).In(Stride()));
+      if (Bits(EqualInt(ids, wanted)) != kAll) break;
+    }
+    return count;
+  }
+
+  // Shades the vectors from (x, y) on, and before column `end` of a tile, that see only one triangle.
+  // Its material must be even. Returns the number of these vectors, 0 if there are none.
+  int ShadeRun(const Lamps<F>& lamps, int x, int y, int end) {
+    const std::uint32_t id =
+        image_.nearest[static_cast<std::size_t>(y) * Stride() + static_cast<std::size_t>(x)];
+    const int count = id == 0 ? 0 : VectorsOf(id, x, y, end);
+    if (count == 0) return 0;
+    const Surface& surface = SurfaceFor(id);
+    if (!surface.is_even) return 0;
+    const TriangleSurface& triangle = surface.triangle;
+    const EvenMaterial<F>& material = materials_[static_cast<std::size_t>(surface.material)];
+    const Facing<F> facing = surface.facing();
+    const MipLevels<F8> levels = material.texture == nullptr
+                                     ? MipLevels<F8>(SplatInt(0), Splat(0))
+                                     : RunLevels(triangle, x, y, *material.texture);
+    const Mask all = MaskOf<F>(kAll);
+    for (int i = 0; i < count; ++i) {
+      const Pixels<F> pixels = PixelsAt(x + 8 * i, y);
+      const Three<F> ray = RaysOf(pixels);
+      const SeenPixels<F> seen(triangle, pixels);
+      const auto lit = [&](const Reflector<F>& reflector) {
+        return light_->Colour(reflector, material.gloss, facing, facing.normal, seen.w, ray, lamps,
+                              all);
+      };
+      Three<F> colour;
+      if (material.texture == nullptr) {
+        colour = lit(material.reflector);
+      } else {
+        const Three<F> texel = Decoded(seen.Look(*material.texture, levels, kGroups * i));
+        colour =
+            lit(Reflector<F>(material.base * texel, material.metalness, material.reflector.emissive,
+                             material.reflector.occlusion, material.reflector.is_grey));
+      }
+      StoreAllGroups(image_.rgba, pixels.In(static_cast<std::size_t>(image_.width)),
+                     Encoded(values_, colour, SplatInt<F>(triangle.number)));
+    }
+    return count;
+  }
+
+  // Returns the levels of detail of a texture for the groups of the vectors of a tile from (x, y) on,
+  // all of whose pixels see the triangle.
+  static MipLevels<F8> RunLevels(const TriangleSurface& triangle, int x, int y,
+                                 const RasterTexture& texture) {
+    static_assert(kTileWidth / 8 * kGroups <= 8);
+    const F8 vector = Floor(Steps() * Splat(1.0f / kGroups));
+    const F8 row = Steps() - vector * Splat(kGroups);
+    // The middle of a group is 3.5 pixels to the right of its first pixel.
+    const F8 dx = vector * Splat(8) + Splat(static_cast<float>(x) - triangle.x0 + 3.5f);
+    const F8 dy = row + Splat(static_cast<float>(y) - triangle.y0);
+    const auto plane = [&](TriangleSurface::Plane i) { return PlaneLanes<F8>(triangle, i); };
+    return {texture, LevelsAt<F8>(plane(TriangleSurface::kInverseW), plane(TriangleSurface::kU),
+                                  plane(TriangleSurface::kV), dx, dy, texture)};
+  }
+
   // Shades the pixels of a vector that begins at (x, y).
   void Shade(const Lamps<F>& lamps, int x, int y) {
     const Pixels<F> pixels = PixelsAt(x, y);
@@ -233,18 +302,7 @@ class VectorPixelLoops final : public PixelLoops {
     const int seen = Bits(used);
     Three<F> colour = Splat<F>(0, 0, 0);
     Ints number = SplatInt<F>(0);
-    if (seen != 0) {
-      const std::uint32_t first = ids.FirstOf(seen);
-      const int sees_first = ids.LanesOf(first);
-      const Surface& surface = SurfaceFor(first);
-      if (surface.is_even && (seen & ~sees_first) == 0) {
-        const SeenPixels<F> seen_pixels(surface.triangle, pixels, sees_first);
-        colour = EvenColour(surface, seen_pixels, ray, lamps, used);
-        number = SplatInt<F>(surface.triangle.number);
-      } else {
-        colour = MixedColour(ids, seen, pixels, ray, lamps, used, number);
-      }
-    }
+    if (seen != 0) colour = MixedColour(ids, seen, pixels, ray, lamps, used, number);
     if (seen != in_image) colour = Select(is_sky, light_->Sky(ray), colour);
     const Ints rgba = Encoded(values_, colour, SelectInt(is_sky, SplatInt<F>(0), number));
     const Places<F> to = pixels.In(static_cast<std::size_t>(image_.width));
@@ -260,22 +318,6 @@ class VectorPixelLoops final : public PixelLoops {
         image_.rgba[to.of[lane / 8] + static_cast<std::size_t>(lane % 8)] = last[lane];
       }
     }
-  }
-
-  // Returns the colours of pixels that all see one triangle of an even material.
-  Three<F> EvenColour(const Surface& surface, const SeenPixels<F>& pixels, const Three<F>& ray,
-                      const Lamps<F>& lamps, Mask used) const {
-    const EvenMaterial<F>& material = materials_[static_cast<std::size_t>(surface.material)];
-    const Facing<F> facing = surface.facing();
-    if (material.texture == nullptr) {
-      return light_->Colour(material.reflector, material.gloss, facing, facing.normal, pixels.w,
-                            ray, lamps, used);
-    }
-    const Three<F> base = material.base * Decoded(pixels.Look(*material.texture));
-    const Reflector<F> reflector(base, material.metalness, material.reflector.emissive,
-                                 material.reflector.occlusion, material.reflector.is_grey);
-    return light_->Colour(reflector, material.gloss, facing, facing.normal, pixels.w, ray, lamps,
-                          used);
   }
 
   // Returns the colours of pixels that see any triangles, and sets the numbers of their surfaces.
