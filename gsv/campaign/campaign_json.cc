@@ -28,16 +28,20 @@ base::Result<Campaign> CampaignInJson(const std::string& text) {
   std::string identity;
   try {
     const auto json = nlohmann::json::parse(text);
-    identity = json.at("identity");
-    campaign.draws = json.at("draws");
-    campaign.draw_seed = json.at("draw_seed");
-    campaign.scenario = json.at("scenario");
-    for (const auto& parameter : json.at("parameters")) {
-      const int kind = parameter.at("kind");
+    json.at("identity").get_to(identity);
+    json.at("draws").get_to(campaign.draws);
+    json.at("draw_seed").get_to(campaign.draw_seed);
+    json.at("scenario").get_to(campaign.scenario);
+    for (const auto& json_parameter : json.at("parameters")) {
+      const int kind = json_parameter.at("kind").get<int>();
       if (kind < 0 || kind > 2)
         return base::Fail(base::ErrorCode::kCorrupt, "this file is not the plan of a campaign");
-      campaign.parameters.push_back({parameter.at("path"), static_cast<Parameter::Kind>(kind),
-                                     parameter.at("values"), parameter.at("a"), parameter.at("b")});
+      Parameter& parameter = campaign.parameters.emplace_back();
+      parameter.kind = static_cast<Parameter::Kind>(kind);
+      json_parameter.at("path").get_to(parameter.path);
+      json_parameter.at("values").get_to(parameter.values);
+      json_parameter.at("a").get_to(parameter.a);
+      json_parameter.at("b").get_to(parameter.b);
     }
   } catch (const nlohmann::json::exception&) {
     return base::Fail(base::ErrorCode::kCorrupt, "this file is not the plan of a campaign");

@@ -48,10 +48,14 @@ Json ToJson(const RunResult& result) {
 }
 
 RunResult ResultIn(const Json& json) {
-  RunResult result{json.at("run"), json.at("status"), json.at("message"), json.at("state_hash")};
-  result.sim_time = json.at("sim_time_s");
-  result.wall_time = json.at("wall_s");
-  result.recording = json.at("recording");
+  RunResult result;
+  json.at("run").get_to(result.run);
+  json.at("status").get_to(result.status);
+  json.at("message").get_to(result.message);
+  json.at("state_hash").get_to(result.state_hash);
+  json.at("sim_time_s").get_to(result.sim_time);
+  json.at("wall_s").get_to(result.wall_time);
+  json.at("recording").get_to(result.recording);
   result.parameters = json.at("parameters");
   result.metrics = json.at("metrics");
   return result;
@@ -64,9 +68,14 @@ Json ToJson(const Attempt& attempt) {
 }
 
 Attempt AttemptIn(const Json& json) {
-  Attempt attempt{"", json.at("share"), json.at("job"), json.at("node"), json.at("at_once")};
-  attempt.submitted = json.at("submitted");
-  attempt.started = attempt.ended = json.at("started");
+  Attempt attempt;
+  json.at("share").get_to(attempt.share);
+  json.at("job").get_to(attempt.job);
+  json.at("node").get_to(attempt.node);
+  json.at("at_once").get_to(attempt.at_once);
+  json.at("submitted").get_to(attempt.submitted);
+  json.at("started").get_to(attempt.started);
+  attempt.ended = attempt.started;
   return attempt;
 }
 

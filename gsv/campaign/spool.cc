@@ -55,14 +55,14 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
   Batch batch;
   try {
     const auto json = nlohmann::json::parse(base::ReadTextFile(file));
-    batch.number = json.at("number");
-    batch.name = json.at("name");
-    batch.job = json.at("job");
-    batch.submitted = json.at("submitted");
-    batch.runs_per_task = std::max<std::size_t>(1, json.at("runs_a_task"));
-    batch.runs = json.at("runs").get<std::vector<std::int64_t>>();
-    batch.timeout = json.at("timeout_s");
-    batch.failures = json.at("failures");
+    json.at("number").get_to(batch.number);
+    json.at("name").get_to(batch.name);
+    json.at("job").get_to(batch.job);
+    json.at("submitted").get_to(batch.submitted);
+    batch.runs_per_task = std::max<std::size_t>(1, json.at("runs_a_task").get<std::size_t>());
+    json.at("runs").get_to(batch.runs);
+    json.at("timeout_s").get_to(batch.timeout);
+    json.at("failures").get_to(batch.failures);
   } catch (const nlohmann::json::exception&) {
     return base::Fail(
         base::ErrorCode::kCorrupt,

@@ -29,7 +29,8 @@ std::optional<Instance> ReadInstance(const fs::path& file) {
       !json.contains("broker") || !json["broker"].is_string()) {
     return std::nullopt;
   }
-  return Instance{json["pid"], json["started"], json["broker"]};
+  return Instance{json["pid"].get<pid_t>(), json["started"].get<std::uint64_t>(),
+                  json["broker"].get<std::string>()};
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ struct RunRequest {
 Result<RunRequest> ParseRequest(const std::string& line) {
   const auto json = nlohmann::json::parse(line, nullptr, false);
   try {
-    return RunRequest{json.at("arguments"), json.at("stdout"), json.at("stderr")};
+    return RunRequest{json.at("arguments").get<std::vector<std::string>>(),
+                      json.at("stdout").get<std::string>(), json.at("stderr").get<std::string>()};
   } catch (const nlohmann::json::exception& error) {
     return base::Fail(ErrorCode::kInvalidArgument, error.what(), "the request for a run");
   }
