@@ -27,6 +27,7 @@ RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> mo
     : shared_(std::move(shared)),
       robot_(std::move(robot)),
       model_(std::move(model)),
+      footprint_radius_(model::FootprintRadius(*model_)),
       is_avatar_(is_avatar),
       rack_(robot_, model_, shared_->designs) {
   for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {

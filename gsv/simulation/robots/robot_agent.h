@@ -26,7 +26,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // The members of Agent.
   const std::string& robot() const override { return robot_; }
   std::string model() const override { return model_->name; }
-  double footprint_radius() const override { return model::FootprintRadius(*model_); }
+  double footprint_radius() const override { return footprint_radius_; }
   geometry::Pose RobotFromLink(int link) const override {
     return model_->links.at(link).model_from_link;
   }
@@ -284,6 +284,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
+  const double footprint_radius_;  // in m; stored because behaviours ask for it in each turn
   const bool is_avatar_;
   SensorRack rack_;       // the robot's sensors
   WaitEvent wait_event_;  // signalled when a wait of the agent ends
