@@ -54,18 +54,31 @@ test("playback stops at the requested instant", async () => {
   expect(act).toHaveBeenCalledWith("pause");
 });
 
-test("a link waits for the scene and is applied once", () => {
+test("a link waits for the scene and is applied once", async () => {
   location.hash = "#view=1,2,3,0,0,0&select=a";
   const { control, store, place } = page({ scene: null, status: null });
   control.start(window);
   expect(store.get().selection).toBeNull();
   store.set({ scene: SCENE, status: simulationStatus("running") });
-  expect(store.get().selection).toBe("a");
+  await vi.waitFor(() => expect(store.get().selection).toBe("a"));
   expect(place.viewpoint).toEqual(THERE);
   place.viewpoint = [5, 5, 5, 0, 0, 0];
   store.set({ scene: null });
   store.set({ scene: SCENE });
   expect(place.viewpoint).toEqual([5, 5, 5, 0, 0, 0]);
+});
+
+test("the camera of a link counts, even if the view frames the world after the link is known", async () => {
+  history.replaceState(null, "", "#view=1,2,3,0,0,0"); // without an event, as when the page is opened
+  const { control, store, place } = page({ scene: null });
+  control.start(window);
+  store.watch(
+    ({ scene }) => scene,
+    () => (place.viewpoint = [7, 7, 7, 0, 0, 0]),
+  );
+  store.set({ scene: SCENE });
+  await Promise.resolve();
+  expect(place.viewpoint).toEqual(THERE);
 });
 
 test("a seek waits until the page knows that it is a recording", async () => {

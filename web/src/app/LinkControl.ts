@@ -48,7 +48,9 @@ export class LinkControl {
     });
     this.store.watch(
       ({ scene, status, view }) => scene !== null && status !== null && view !== "starting",
-      () => this.show(),
+      // The 3D view watches the scene, too, and moves its camera for a new world. The view of the
+      // link counts, so it is applied after all watchers have received the scene.
+      () => queueMicrotask(() => this.show()),
     );
     this.store.watch(
       ({ replay, kept }) => replay !== null || kept !== null,
