@@ -16,9 +16,11 @@ import tempfile
 import unittest
 from xml.etree import ElementTree
 
+from domains import take_domain
+
 GSV, PEER = sys.argv[1:3]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(140 + os.getpid() % 40)  # a domain that no other test on this machine uses
+DOMAIN = str(take_domain())
 
 WORLD = """<sdf version="1.9"><world name="room"><gravity>0 0 -9.8</gravity>
 <physics type="ode"><max_step_size>0.01</max_step_size></physics>

@@ -16,9 +16,11 @@ import sys
 import tempfile
 import unittest
 
+from domains import take_domain
+
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(180 + os.getpid() % 40)  # a domain that no other test on this machine uses
+DOMAIN = str(take_domain())
 
 GOVERNANCE = """<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"

@@ -14,9 +14,11 @@ import sys
 import tempfile
 import unittest
 
+from domains import take_domain
+
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(100 + os.getpid() % 40)  # a domain that no other test on this machine uses
+DOMAIN = str(take_domain())
 EARLY_CALLS = 5  # number of starts of gsv, each with a call as soon as its services are found
 CALLS = "3400"  # number of calls of each client; 10,200 in all
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)

@@ -17,11 +17,13 @@ import tempfile
 import unittest
 from xml.etree import ElementTree
 
+from domains import take_domain
+
 GSV, PEER = sys.argv[1:3]
 # Fast DDS 2.9 deletes objects through a type of another size. Without this option, AddressSanitizer
 # would end the program because of that.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = 60 + os.getpid() % 40  # a domain that no other test on this machine uses
+DOMAIN = take_domain()
 PUBLISHED = {  # type hashes that ROS 2's packages contain
     "sensor_msgs::msg::dds_::LaserScan_":
         "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
@@ -215,7 +217,7 @@ class ForeignPeer(unittest.TestCase):
         return done
 
     def test_refuses_a_domain_whose_ports_are_taken(self):
-        domain = 40 + os.getpid() % 20
+        domain = take_domain()
         with contextlib.ExitStack() as stack:
             for port in range(7400 + 250 * domain + 10, 7400 + 250 * (domain + 1)):
                 taken = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
