@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::campaign {
 namespace {
 
@@ -206,8 +208,7 @@ class Drive {
         missing.push_back(run);
       }
     }
-    std::stable_sort(missing.begin(), missing.end(),
-                     [&](std::int64_t a, std::int64_t b) { return attempts[a] < attempts[b]; });
+    base::Sort(missing, [&](std::int64_t a, std::int64_t b) { return attempts[a] < attempts[b]; });
     if (given_up.empty()) return missing;
     if (auto ok = results_.Add(given_up); !ok) return base::Fail(ok.error());
     for (const RunResult& result : given_up) done_.insert(result.run);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "gsv/base/atomic_file.h"
+#include "gsv/base/sorting.h"
 #include "gsv/base/text_file.h"
 
 namespace gsv::campaign {
@@ -24,7 +25,7 @@ base::Result<std::vector<fs::path>> FilesIn(const fs::path& folder, std::string_
   if (error) {
     return base::Fail(base::ErrorCode::kUnavailable, "cannot be read: " + error.message(), folder);
   }
-  std::sort(files.begin(), files.end());
+  base::Sort(files);
   return files;
 }
 
@@ -129,8 +130,7 @@ base::Result<std::vector<Batch>> Spool::Batches() const {
     if (!batch) return base::Fail(batch.error());
     batches.push_back(*std::move(batch));
   }
-  std::sort(batches.begin(), batches.end(),
-            [](const Batch& a, const Batch& b) { return a.number < b.number; });
+  base::Sort(batches, [](const Batch& a, const Batch& b) { return a.number < b.number; });
   return batches;
 }
 

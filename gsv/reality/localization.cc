@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 
+#include "gsv/base/sorting.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::reality {
@@ -142,14 +143,12 @@ std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field)
         if (best.size() >= 20 * kKept && score <= best.back().score) continue;
         best.push_back({score, pose});
         if (best.size() < 40 * kKept) continue;
-        std::sort(best.begin(), best.end(),
-                  [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+        base::Sort(best, [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
         best.resize(20 * kKept);
       }
     }
   }
-  std::sort(best.begin(), best.end(),
-            [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  base::Sort(best, [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   best.resize(std::min(best.size(), 10 * kKept));
   // Follows the odometry from scan to scan. Each search starts at the pose of the previous scan,
   // moved by the odometry since then.

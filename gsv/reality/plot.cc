@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
 #include "gsv/reality/comparison.h"
 #include "gsv/reality/statistics.h"
 
@@ -14,7 +15,7 @@ constexpr int kPoints = 200;
 
 std::string Curve(const std::vector<double>& values, double low, double high, const char* style) {
   std::vector<double> sorted = values;
-  std::sort(sorted.begin(), sorted.end());
+  base::Sort(sorted);
   std::string points;
   for (int i = 0; i <= kPoints; ++i) {
     const double at = low + (high - low) * i / kPoints;

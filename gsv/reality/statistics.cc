@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::reality {
 
 Summary Summarize(std::span<const double> values) {
@@ -42,8 +44,8 @@ double JackknifeInterval(const std::vector<double>& without) {
 
 double KolmogorovSmirnov(std::vector<double> first, std::vector<double> second) {
   if (first.empty() || second.empty()) return 1;
-  std::sort(first.begin(), first.end());
-  std::sort(second.begin(), second.end());
+  base::Sort(first);
+  base::Sort(second);
   double largest = 0;
   std::size_t a = 0, b = 0;
   while (a < first.size() && b < second.size()) {

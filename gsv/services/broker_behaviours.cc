@@ -1,8 +1,8 @@
 #include "gsv/services/broker_behaviours.h"
 
-#include <algorithm>
 #include <chrono>
 
+#include "gsv/base/sorting.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
@@ -37,11 +37,11 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
                     broker_.reference()};
   {
     const base::MutexLock lock(mutex_);
-    std::stable_sort(offers->begin(), offers->end(),
-                     [this](const auto& a, const auto& b) GSV_REQUIRES(mutex_) {
-                       return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
-                              robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
-                     });
+    base::Sort(*offers, [this](const auto& a, const auto& b) {
+      mutex_.AssertHeld();
+      return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
+             robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
+    });
   }
   for (const broker::FoundOffer& offer : *offers) {
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);

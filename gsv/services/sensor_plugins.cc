@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gsv/base/sorting.h"
 #include "gsv/sensing/module.h"
 
 namespace gsv::services {
@@ -18,7 +19,7 @@ std::vector<std::filesystem::path> FindSensorPlugins(std::string_view folders) {
       const std::string name = entry.path().filename();
       if (name.starts_with("gsv-sensor-") && name.ends_with(".so")) here.push_back(entry.path());
     }
-    std::sort(here.begin(), here.end());
+    base::Sort(here);
     found.insert(found.end(), here.begin(), here.end());
     folders.remove_prefix(std::min(end + 1, folders.size()));
   }

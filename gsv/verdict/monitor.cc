@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "gsv/base/check.h"
+#include "gsv/base/sorting.h"
 
 namespace gsv::verdict {
 
@@ -84,8 +85,7 @@ ObligationPtr Join(Kind join, std::vector<ObligationPtr> given, SimTime now) {
       parts.push_back(std::move(part));
     }
   }
-  std::sort(parts.begin(), parts.end(),
-            [](const auto& a, const auto& b) { return Compare(a, b) < 0; });
+  base::Sort(parts, [](const auto& a, const auto& b) { return Compare(a, b) < 0; });
   parts.erase(std::unique(parts.begin(), parts.end(),
                           [](const auto& a, const auto& b) { return Compare(a, b) == 0; }),
               parts.end());

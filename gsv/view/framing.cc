@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "gsv/base/sorting.h"
 #include "gsv/geometry/box_corners.h"
 
 namespace gsv::view {
@@ -99,8 +100,8 @@ Vector3 MiddleOf(const std::vector<SeenBody>& bodies) {
 void DropFarAway(std::vector<SeenBody>& bodies) {
   const Vector3 middle = MiddleOf(bodies);
   const auto distance = [&](const SeenBody& body) { return Norm(body.centre() - middle); };
-  std::stable_sort(bodies.begin(), bodies.end(),
-                   [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
+  base::Sort(bodies,
+             [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
   double radius = 0;  // radius of the sphere about `middle` that contains the bodies so far
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double nearest = distance(bodies[i]) - bodies[i].radius();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gsv/base/check.h"
+#include "gsv/base/sorting.h"
 
 namespace gsv::world {
 namespace {
@@ -48,8 +49,7 @@ std::shared_ptr<const Layout> MakeLayout(
     std::uint32_t version, std::vector<Body> bodies,
     std::shared_ptr<const model::WorldDescription> description) {
   GSV_CHECK(description != nullptr);
-  std::sort(bodies.begin(), bodies.end(),
-            [](const Body& a, const Body& b) { return a.name < b.name; });
+  base::Sort(bodies, [](const Body& a, const Body& b) { return a.name < b.name; });
   auto layout = std::make_shared<Layout>();
   layout->version = version;
   layout->description = std::move(description);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "gsv/base/sorting.h"
 
 namespace gsv::app {
 
@@ -41,7 +42,7 @@ inline double ProcessorTime(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
 // for the median, 0.99 for the 99th percentile. Returns 0 if there are no values.
 inline double QuantileOf(std::vector<double> values, double q) {
   if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
+  base::Sort(values);
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(values.size()));
   return values[std::min(rank, values.size() - 1)];
 }

@@ -23,6 +23,7 @@
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/option_values.h"
 #include "gsv/base/check.h"
+#include "gsv/base/sorting.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/storage/offer_file.h"
@@ -95,7 +96,7 @@ base::Result<Clock::duration> CallFromThreads(
 
 // Returns the `q`-quantile of the durations in ms (nearest rank), such as the median for 0.5.
 double Quantile(std::vector<Clock::duration> durations, double q) {
-  std::sort(durations.begin(), durations.end());
+  base::Sort(durations);
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(durations.size()));
   return 1e3 * Seconds(durations[std::min(rank, durations.size() - 1)]);
 }

@@ -13,6 +13,7 @@
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/mutex.h"
+#include "gsv/base/sorting.h"
 #include "gsv/sensing/forwarding_sensor.h"
 
 namespace gsv::app {
@@ -46,7 +47,7 @@ class Durations {
     const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;
     std::vector<double> sorted = values_;
-    std::sort(sorted.begin(), sorted.end());
+    base::Sort(sorted);
     const auto rank = static_cast<std::size_t>(q * static_cast<double>(sorted.size()));
     return sorted[std::min(rank, sorted.size() - 1)];
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gsv/base/counted.h"
+#include "gsv/base/sorting.h"
 #include "gsv/health/health.h"
 
 namespace gsv::app {
@@ -77,8 +78,7 @@ std::string RobotListing(const simulation::SimulationStatus& status,
   std::vector<RobotRow> rows = RowsOf(status, healths);
   const bool is_crowd = rows.size() > kMaxListed;
   if (is_crowd) {
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const RobotRow& a, const RobotRow& b) { return a.severity > b.severity; });
+    base::Sort(rows, [](const RobotRow& a, const RobotRow& b) { return a.severity > b.severity; });
   }
   const std::size_t listed = lists_all ? rows.size() : std::min(rows.size(), kMaxListed);
   std::size_t name_width = 20;

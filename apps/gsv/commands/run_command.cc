@@ -19,6 +19,7 @@
 #include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/base/counted.h"
 #include "gsv/base/log.h"
+#include "gsv/base/sorting.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/topics/topics.h"
 #include "gsv/verdict/judge.h"
@@ -120,7 +121,7 @@ std::vector<std::string> ProblemsAtTheEnd(const RunOptions& options,
   for (const auto& [id, channel] : (*recorded)->summary().channels) {
     topics_at_start.push_back(channel.topic);
   }
-  std::sort(topics_at_start.begin(), topics_at_start.end());
+  base::Sort(topics_at_start);
   topics_at_start.erase(std::unique(topics_at_start.begin(), topics_at_start.end()),
                         topics_at_start.end());
   return ProblemsOf(options.recording, topics_at_start);

@@ -1,12 +1,12 @@
 #include "apps/gsv/lost/lost_simulations.h"
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <utility>
 
 #include "gsv/base/atomic_file.h"
 #include "gsv/base/log.h"
+#include "gsv/base/sorting.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::app {
@@ -74,8 +74,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
 }
 
 void LostSimulations::Keep(std::vector<LostSimulation> lost) {
-  std::stable_sort(lost.begin(), lost.end(),
-                   [](const auto& a, const auto& b) { return a.noted < b.noted; });
+  base::Sort(lost, [](const auto& a, const auto& b) { return a.noted < b.noted; });
   if (lost.size() > kMaxKept) lost.erase(lost.begin(), lost.end() - kMaxKept);
   const base::MutexLock lock(mutex_);
   for (LostSimulation& each : lost) lost_[next_++] = std::move(each);

@@ -1,9 +1,9 @@
 #include "apps/gsv/machine/installation.h"
 
-#include <algorithm>
 #include <iterator>
 #include <sstream>
 
+#include "gsv/base/sorting.h"
 #include "gsv/base/spelling.h"
 #include "gsv/formats/xacro/arguments.h"
 
@@ -27,7 +27,7 @@ std::vector<std::string> BuiltInWorlds() {
        fs::directory_iterator(ShareFolder() / "worlds", ignored)) {
     if (entry.path().extension() == ".sdf") names.push_back(entry.path().stem());
   }
-  std::sort(names.begin(), names.end());
+  base::Sort(names);
   return names;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/atomic_file.h"
+#include "gsv/base/sorting.h"
 #include "gsv/base/user_folder.h"
 
 namespace gsv::app {
@@ -82,7 +83,7 @@ std::vector<Instance> RunningInstances() {
       fs::remove(entry.path(), error);
     }
   }
-  std::sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
+  base::Sort(instances, [](const Instance& a, const Instance& b) {
     return a.started != b.started ? a.started > b.started : a.pid > b.pid;
   });
   return instances;

@@ -17,6 +17,7 @@
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/simulations/recordings.h"
+#include "gsv/base/sorting.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/hosting/recorded_commands.h"
 #include "gsv/messages/cdr.h"
@@ -162,8 +163,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
     if (auto ok = take->second(**record, *robots); !ok) return ok;
   }
   for (auto& [name, acts] : *robots) {
-    std::stable_sort(acts.commands.begin(), acts.commands.end(),
-                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    base::Sort(acts.commands, [](const auto& a, const auto& b) { return a.time < b.time; });
   }
   run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour,
                                 base::SimTime from) {

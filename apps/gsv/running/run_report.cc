@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/counted.h"
+#include "gsv/base/sorting.h"
 #include "gsv/health/health_tracker.h"
 
 namespace gsv::app {
@@ -63,9 +64,8 @@ std::string RobotLines(const simulation::SimulationStatus& status, const health:
   name_width = std::min(name_width, 40);
   behaviour_width = std::min(behaviour_width, 40);
   if (rows.size() > kCrowd) {
-    std::stable_sort(rows.begin(), rows.end(), [](const RobotLine& a, const RobotLine& b) {
-      return a.Trouble() > b.Trouble();
-    });
+    base::Sort(rows,
+               [](const RobotLine& a, const RobotLine& b) { return a.Trouble() > b.Trouble(); });
   }
   std::string text;
   char line[512];

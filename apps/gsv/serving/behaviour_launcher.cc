@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "apps/gsv/machine/installation.h"
+#include "gsv/base/sorting.h"
 #include "gsv/base/spelling.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/services/behaviour_source.h"
@@ -83,7 +84,7 @@ std::vector<std::string> BehaviourPrograms() {
       names.push_back(file.substr(kPrefix.size()));
     }
   }
-  std::sort(names.begin(), names.end());
+  base::Sort(names);
   return names;
 }
 

@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -15,6 +14,7 @@
 
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/simulations/recordings.h"
+#include "gsv/base/sorting.h"
 
 namespace gsv::app {
 namespace {
@@ -185,8 +185,7 @@ std::vector<ListeningProcess> FindListeningProcesses() {
     process.folder = fs::read_symlink(each->path() / "cwd", denied);
     processes.push_back(std::move(process));
   }
-  std::sort(processes.begin(), processes.end(),
-            [](const auto& a, const auto& b) { return a.pid < b.pid; });
+  base::Sort(processes, [](const auto& a, const auto& b) { return a.pid < b.pid; });
   return processes;
 }
 

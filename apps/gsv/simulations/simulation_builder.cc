@@ -8,6 +8,7 @@
 #include "apps/gsv/simulations/model_list.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/simulations/world_saving.h"
+#include "gsv/base/sorting.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/ros2/node_steps.h"
 
@@ -74,7 +75,7 @@ std::vector<std::string> SimulationBuilder::Worlds() { return BuiltInWorlds(); }
 
 std::vector<std::string> SimulationBuilder::Objects() {
   std::vector<std::string> objects = finder_.ModelNames();
-  std::sort(objects.begin(), objects.end());
+  base::Sort(objects);
   objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
   const std::vector<std::string> robots = FindRobotModels(host_.library(), finder_.search_path());
   std::erase_if(objects, [&](const std::string& name) {

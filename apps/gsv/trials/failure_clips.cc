@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::app {
 
 std::vector<double> ViolationTimes(const nlohmann::ordered_json& report) {
@@ -11,7 +13,7 @@ std::vector<double> ViolationTimes(const nlohmann::ordered_json& report) {
     if (!expectation.value("holds", true)) times.push_back(expectation.value("time_s", end));
   }
   if (times.empty()) times.push_back(end);
-  std::sort(times.begin(), times.end());
+  base::Sort(times);
   return times;
 }
 

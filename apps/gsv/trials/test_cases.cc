@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gsv/base/sorting.h"
 #include "gsv/scenario/scenario_file.h"
 
 namespace gsv::app {
@@ -21,7 +22,7 @@ base::Result<std::vector<std::string>> FilesOf(const std::string& name) {
   for (const fs::directory_entry& entry : fs::directory_iterator(name, error)) {
     if (scenario::IsScenarioFileName(entry.path().filename())) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  base::Sort(files);
   if (!files.empty()) return files;
   return base::Fail(base::ErrorCode::kNotFound, "the folder has no scenario files (*.yaml, *.yml)",
                     name);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
 #include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/encoding/corba_values.h"
@@ -41,10 +42,10 @@ bool SameDefinition(ServiceType a, ServiceType b) {
   const auto by_name = [](const PropertyDefinition& x, const PropertyDefinition& y) {
     return x.name < y.name;
   };
-  std::sort(a.properties.begin(), a.properties.end(), by_name);
-  std::sort(b.properties.begin(), b.properties.end(), by_name);
-  std::sort(a.super_types.begin(), a.super_types.end());
-  std::sort(b.super_types.begin(), b.super_types.end());
+  base::Sort(a.properties, by_name);
+  base::Sort(b.properties, by_name);
+  base::Sort(a.super_types);
+  base::Sort(b.super_types);
   const auto same = [](const PropertyDefinition& x, const PropertyDefinition& y) {
     return x.name == y.name && x.type == y.type && x.mode == y.mode;
   };

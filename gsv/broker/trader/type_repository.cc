@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "gsv/base/sorting.h"
 #include "gsv/broker/language/names.h"
 
 namespace gsv::broker {
@@ -59,7 +60,7 @@ TradingError RedefinitionError(const std::string& type_1, const PropertyDefiniti
 
 base::Status TypeRepository::Restore(std::vector<ServiceType> types,
                                      std::uint64_t next_incarnation) {
-  std::sort(types.begin(), types.end(), [](const ServiceType& a, const ServiceType& b) {
+  base::Sort(types, [](const ServiceType& a, const ServiceType& b) {
     return a.incarnation < b.incarnation;
   });
   for (ServiceType& type : types) {

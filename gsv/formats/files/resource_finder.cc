@@ -4,10 +4,13 @@
 #include <cctype>
 #include <cstdlib>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <system_error>
 
 #include <tinyxml2.h>
+
+#include "gsv/base/sorting.h"
 
 namespace gsv::formats {
 namespace {
@@ -169,7 +172,7 @@ std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& nami
       if (groups.size() >= kMaxGroups) break;
       if (entry.is_directory(error)) groups.push_back(entry.path());
     }
-    std::sort(groups.begin(), groups.end());
+    base::Sort(groups);
     for (const fs::path& group : groups) {
       if (!Exists(group / package)) continue;
       if (auto found = FindBelow(group, path)) return found;
@@ -224,13 +227,13 @@ std::vector<std::string> ResourceFinder::ModelNames() const {
   constexpr std::size_t kMaxNames = 10'000;
   std::vector<std::string> names;
   for (const fs::path& folder : search_path_) {
-    const auto first = static_cast<std::ptrdiff_t>(names.size());
+    const std::size_t first = names.size();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (names.size() >= kMaxNames) break;
       if (HoldsAModel(entry.path())) names.push_back(entry.path().filename());
     }
-    std::sort(names.begin() + first, names.end());
+    base::Sort(std::span(names).subspan(first));
   }
   return names;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::formats {
 namespace {
 
@@ -144,7 +146,7 @@ base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
   }
   // Sorts the holes from right to left. Then a corner of the outline, or of a hole that is already
   // joined, is visible from each hole.
-  std::sort(hole_rings.begin(), hole_rings.end(), [](const Ring& a, const Ring& b) {
+  base::Sort(hole_rings, [](const Ring& a, const Ring& b) {
     return a[Rightmost(a)].point.x > b[Rightmost(b)].point.x;
   });
   for (const Ring& hole : hole_rings) {

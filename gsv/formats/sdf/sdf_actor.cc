@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "gsv/base/sorting.h"
 #include "gsv/formats/sdf/sdf_xml.h"
 #include "gsv/formats/sdf/world_frames.h"
 
@@ -103,8 +104,7 @@ class ActorReader {
       if (trajectory.waypoints.empty()) continue;
       trajectories.emplace_back(child->IntAttribute("id"), std::move(trajectory));
     }
-    std::stable_sort(trajectories.begin(), trajectories.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    base::Sort(trajectories, [](const auto& a, const auto& b) { return a.first < b.first; });
     for (auto& each : trajectories) script.trajectories.push_back(std::move(each.second));
     return script;
   }

@@ -9,6 +9,7 @@
 #include <sdf/Material.hh>
 #include <sdf/Pbr.hh>
 
+#include "gsv/base/sorting.h"
 #include "gsv/formats/meshes/surface_gloss.h"
 #include "gsv/formats/sdf/gazebo_materials.h"
 #include "gsv/formats/sdf/ogre_material.h"
@@ -174,7 +175,7 @@ class MaterialOfVisual {
     for (const auto& entry : fs::directory_iterator(place, error)) {
       if (entry.path().extension() == ".material") scripts.push_back(entry.path());
     }
-    std::sort(scripts.begin(), scripts.end());
+    base::Sort(scripts);
     return scripts;
   }
 

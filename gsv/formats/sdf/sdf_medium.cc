@@ -1,6 +1,5 @@
 #include "gsv/formats/sdf/sdf_medium.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
 #include "gsv/formats/sdf/sdf_xml.h"
 #include "gsv/formats/sdf/value_text.h"
 
@@ -100,8 +100,7 @@ class MediumReader {
         fluid.layers.push_back({Number(*change, "above_depth", 0, -INFINITY),
                                 Number(*change, "density", fluid.density, 0)});
       }
-      std::stable_sort(fluid.layers.begin(), fluid.layers.end(),
-                       [](const auto& a, const auto& b) { return a.above < b.above; });
+      base::Sort(fluid.layers, [](const auto& a, const auto& b) { return a.above < b.above; });
     }
     for (auto* each = plugin.FirstChildElement("enable"); each != nullptr;
          each = each->NextSiblingElement("enable")) {

@@ -12,6 +12,7 @@
 #include <sdf/Root.hh>
 #include <sdf/World.hh>
 
+#include "gsv/base/sorting.h"
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/include_scan.h"
 #include "gsv/formats/sdf/joint_mimic.h"
@@ -351,9 +352,8 @@ class WorldReader {
     std::vector<const XMLElement*> elements;
     if (with_surroundings) elements.assign(surroundings_.begin(), surroundings_.end());
     for (std::size_t i = first; i < end; ++i) elements.push_back(distinct_[i].element);
-    std::stable_sort(elements.begin(), elements.end(), [](const auto* a, const auto* b) {
-      return a->GetLineNum() < b->GetLineNum();
-    });
+    base::Sort(elements,
+               [](const auto* a, const auto* b) { return a->GetLineNum() < b->GetLineNum(); });
     LineKeepingPrinter printer;
     printer.Text("<sdf version='" + file_.version + "'><world name=\"");
     // libsdformat refuses worlds with reserved names. The document's name is not used elsewhere.

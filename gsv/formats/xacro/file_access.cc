@@ -7,6 +7,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "gsv/base/sorting.h"
 #include "gsv/formats/files/xml_text.h"
 #include "gsv/formats/xacro/package_finder.h"
 #include "gsv/formats/xacro/yaml_values.h"
@@ -101,7 +102,7 @@ std::vector<std::string> FileAccess::Matching(const std::string& pattern,
     if (names.size() < kMaxIncludes && entry.is_regular_file(ignored))
       names.push_back(entry.path().string());
   }
-  std::sort(names.begin(), names.end());
+  base::Sort(names);
   return names;
 }
 

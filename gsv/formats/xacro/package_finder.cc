@@ -7,6 +7,8 @@
 
 #include <tinyxml2.h>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::formats::xacro {
 namespace {
 
@@ -34,7 +36,7 @@ std::optional<fs::path> NeighbourNamed(const fs::path& folder, const std::string
     if (neighbours.size() >= kMaxNeighbours) break;
     if (entry.is_directory(error)) neighbours.push_back(entry.path());
   }
-  std::sort(neighbours.begin(), neighbours.end());
+  base::Sort(neighbours);
   const auto found = std::find_if(neighbours.begin(), neighbours.end(),
                                   [&](const fs::path& each) { return IsPackage(each, name); });
   return found == neighbours.end() ? std::nullopt : std::optional(*found);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::gateway::access {
 namespace {
 
@@ -163,8 +165,8 @@ ViewerRegistry::ViewerList ViewerRegistry::List(const std::string& key, Time now
           control.questions.front().asked + limits_.answer - now);
     }
   }
-  std::sort(standing.viewers.begin(), standing.viewers.end(),
-            [](const ViewerState& a, const ViewerState& b) { return a.number < b.number; });
+  base::Sort(standing.viewers,
+             [](const ViewerState& a, const ViewerState& b) { return a.number < b.number; });
   return standing;
 }
 

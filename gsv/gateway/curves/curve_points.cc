@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::gateway::curves {
 
 CurvePoints::CurvePoints(base::SimTime start, base::SimTime end, std::size_t max_points)
@@ -45,8 +47,7 @@ std::vector<Point> CurvePoints::Points() const {
     points.push_back(bin.min);
     if (bin.max.time != bin.min.time) points.push_back(bin.max);
   }
-  std::stable_sort(points.begin(), points.end(),
-                   [](const Point& a, const Point& b) { return a.time < b.time; });
+  base::Sort(points, [](const Point& a, const Point& b) { return a.time < b.time; });
   return points;
 }
 

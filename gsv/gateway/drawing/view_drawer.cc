@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/sorting.h"
 #include "gsv/rendering/images/depth_segment.h"
 #include "gsv/rendering/images/jpeg.h"
 #include "gsv/rendering/images/png.h"
@@ -125,7 +126,7 @@ void ViewDrawer::Run() {
       if (stopping_) break;
       for (const Pending& each : pending_) wanted.push_back(each.seat->request().world);
     }
-    std::sort(wanted.begin(), wanted.end());
+    base::Sort(wanted);
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
     bool has_served = false;
     for (const std::string& name : wanted) has_served = Serve(name) || has_served;

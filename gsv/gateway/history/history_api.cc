@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/sorting.h"
 #include "gsv/gateway/api/simulation_routes.h"
 #include "gsv/gateway/recorded/recorded_timeline.h"
 #include "gsv/gateway/recordings/note_request.h"
@@ -60,8 +61,8 @@ std::vector<RecordedEvent> EventsOf(const simulation::Simulation& simulation,
     if (collision.time < from) continue;
     events.push_back(CollisionEvent(collision.time, collision.robot, collision.other));
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
+  base::Sort(events,
+             [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
   return events;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gsv/base/mutex.h"
+#include "gsv/base/sorting.h"
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/messages/time.h"
 
@@ -116,11 +117,11 @@ class StepCostTopic::Watch final : public simulation::Observer {
       hold_up.robot = robot;
       message.hold_ups.push_back(std::move(hold_up));
     }
-    std::stable_sort(message.hold_ups.begin(), message.hold_ups.end(),
-                     [](const HoldUp& a, const HoldUp& b) { return a.total_s > b.total_s; });
+    base::Sort(message.hold_ups,
+               [](const HoldUp& a, const HoldUp& b) { return a.total_s > b.total_s; });
     if (message.hold_ups.size() > kMaxHoldUps) message.hold_ups.resize(kMaxHoldUps);
-    std::sort(collected.longest.begin(), collected.longest.end(),
-              [](const StepTimes& a, const StepTimes& b) { return a.step < b.step; });
+    base::Sort(collected.longest,
+               [](const StepTimes& a, const StepTimes& b) { return a.step < b.step; });
     for (const StepTimes& times : collected.longest) message.longest.push_back(CostOf(times));
     return message;
   }

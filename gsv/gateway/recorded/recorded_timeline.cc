@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "gsv/base/sorting.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/rcl_interfaces.h"
 #include "gsv/presentation/topics.h"
@@ -61,7 +62,7 @@ base::SimTime RecordedTimeline::TimeOfPoseFrom(base::SimTime time, std::int64_t 
     const bool reaches_there = distance(is_ahead ? block.end : block.start) > base::SimTime(0);
     if (reaches_there && MayHold(block, pose_channels_)) blocks.push_back(&block);
   }
-  std::stable_sort(blocks.begin(), blocks.end(), [&](const MessageBlock* a, const MessageBlock* b) {
+  base::Sort(blocks, [&](const MessageBlock* a, const MessageBlock* b) {
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
@@ -114,8 +115,7 @@ std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::si
       entries.push_back(*std::move(entry));
     }
   }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  base::Sort(entries, [](const Entry& a, const Entry& b) { return a.time < b.time; });
   return entries;
 }
 
@@ -138,8 +138,8 @@ std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
       ReadAll<Contact, RecordedEvent>(contact_channels_, kMaxCollisions, of_contact);
   events.insert(events.end(), notes.begin(), notes.end());
   events.insert(events.end(), collisions.begin(), collisions.end());
-  std::stable_sort(events.begin(), events.end(),
-                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
+  base::Sort(events,
+             [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
   return events;
 }
 

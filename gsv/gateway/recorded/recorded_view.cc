@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gsv/base/log.h"
+#include "gsv/base/sorting.h"
 #include "gsv/formats/gltf/glb_reader.h"
 #include "gsv/presentation/topics.h"
 
@@ -52,8 +53,7 @@ const Poses* RecordedView::NewestAt(base::SimTime time, std::uint16_t channel) {
   }
   // The search begins with the block that ends last, and takes the newest pose in the first block
   // that has one. This is the newest pose of all, unless blocks overlap in time, which is rare.
-  std::stable_sort(blocks.begin(), blocks.end(),
-                   [](const auto* a, const auto* b) { return a->end > b->end; });
+  base::Sort(blocks, [](const auto* a, const auto* b) { return a->end > b->end; });
   for (const recording::MessageBlock* block : blocks) {
     if (block != loaded_) Load(*block, channel);
     const auto after = std::upper_bound(poses_.begin(), poses_.end(), time,
@@ -76,8 +76,7 @@ void RecordedView::Load(const recording::MessageBlock& block, std::uint16_t chan
     auto poses = messages::Decode<Poses>(message.data);
     if (poses) poses_.push_back({message.log_time, *std::move(poses)});
   }
-  std::stable_sort(poses_.begin(), poses_.end(),
-                   [](const Timed& a, const Timed& b) { return a.time < b.time; });
+  base::Sort(poses_, [](const Timed& a, const Timed& b) { return a.time < b.time; });
 }
 
 std::shared_ptr<const model::Model> RecordedView::FindModel(const std::string& id) {

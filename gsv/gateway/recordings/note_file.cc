@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::gateway::recordings {
 namespace {
 
@@ -73,8 +75,7 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
     }
     notes.push_back(*note);
   }
-  std::stable_sort(notes.begin(), notes.end(),
-                   [](const Note& a, const Note& b) { return a.time_s < b.time_s; });
+  base::Sort(notes, [](const Note& a, const Note& b) { return a.time_s < b.time_s; });
   return notes;
 }
 

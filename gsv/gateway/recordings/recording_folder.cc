@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "gsv/base/sorting.h"
 #include "gsv/recording/mcap/bag_folder.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 
@@ -173,7 +174,7 @@ RecordingFolder::Listing RecordingFolder::List() {
   if (only_.empty() && fs::is_directory(fs::symlink_status(failures, ignored))) {
     look_into(failures, std::string(kFailuresFolder) + "/");
   }
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+  base::Sort(found, [](const Found& a, const Found& b) {
     return std::tie(b.modified, a.name) < std::tie(a.modified, b.name);
   });
   Listing listing;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gsv/base/sorting.h"
 #include "gsv/recording/mcap/compression.h"
 
 namespace gsv::recording {
@@ -121,8 +122,8 @@ class SummaryReader {
     summary_.end = statistics_->end;
     std::vector<MessageBlock>& blocks = summary_.blocks;
     if (summary_.message_count > 0 && blocks.empty()) return "its summary has no chunks";
-    std::sort(blocks.begin(), blocks.end(),
-              [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
+    base::Sort(blocks,
+               [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
     // Chunks must not overlap in the file; otherwise their total size could be many times the size
     // of the file.
     std::uint64_t free_from = kMagic.size();

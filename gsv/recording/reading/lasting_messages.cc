@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/sorting.h"
 #include "gsv/messages/definition.h"
 
 namespace gsv::recording {
@@ -62,8 +63,7 @@ class LastingSearch {
     // The last message for each key, ordered by offset in the file.
     std::vector<std::pair<std::uint64_t, LastingMessage>> found;
     for (auto& [key, each] : newest_) found.emplace_back(each.place, std::move(each.message));
-    std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    base::Sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
     for (auto& [place, message] : found) result_.messages.push_back(std::move(message));
     return std::move(result_);
   }

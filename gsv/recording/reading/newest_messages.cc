@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "gsv/base/sorting.h"
+
 namespace gsv::recording {
 namespace {
 
@@ -16,8 +18,8 @@ class Search {
       if (block.start <= time_) blocks.push_back(&block);
     }
     // The block that ends last is read first, because it may have the newest messages.
-    std::stable_sort(blocks.begin(), blocks.end(),
-                     [](const MessageBlock* a, const MessageBlock* b) { return a->end > b->end; });
+    base::Sort(blocks,
+               [](const MessageBlock* a, const MessageBlock* b) { return a->end > b->end; });
     for (const MessageBlock* block : blocks) {
       if (MayHoldNewer(*block)) ReadBlock(*block);
     }

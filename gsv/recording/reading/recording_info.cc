@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/sorting.h"
 #include "gsv/recording/reading/content_hash.h"
 
 namespace gsv::recording {
@@ -20,8 +21,7 @@ std::vector<RecordingInfo::Channel> ChannelsOf(const Summary& summary) {
     channels.push_back({channel.topic, schema == summary.schemas.end() ? "" : schema->second.name,
                         count == summary.message_counts.end() ? 0 : count->second});
   }
-  std::sort(channels.begin(), channels.end(),
-            [](const auto& a, const auto& b) { return a.topic < b.topic; });
+  base::Sort(channels, [](const auto& a, const auto& b) { return a.topic < b.topic; });
   return channels;
 }
 

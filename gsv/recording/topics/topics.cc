@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gsv/base/sorting.h"
 #include "gsv/presentation/sensor_messages.h"
 #include "gsv/presentation/topics.h"
 #include "gsv/recording/reading/selection.h"
@@ -19,7 +20,7 @@ std::vector<std::string> TopicsOf(const simulation::Simulation& simulation) {
     const auto its = presentation::SensorTopicNames(simulation, robot);
     names.insert(names.end(), its.begin(), its.end());
   }
-  std::sort(names.begin(), names.end());
+  base::Sort(names);
   return names;
 }
 

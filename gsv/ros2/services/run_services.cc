@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gsv/base/sorting.h"
 #include "gsv/ros2/services/spawn_services.h"
 
 namespace gsv::ros2 {
@@ -51,7 +52,7 @@ interfaces::GetSimulatorFeaturesResponse GetFeatures(bool can_spawn, bool loads_
     response.features.features.push_back(Features::kWorldLoading);
     response.features.features.push_back(Features::kWorldUnloading);
   }
-  std::sort(response.features.features.begin(), response.features.features.end());
+  base::Sort(response.features.features);
   response.features.custom_info = "gsv";
   return response;
 }

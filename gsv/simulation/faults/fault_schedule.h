@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gsv/base/sim_time.h"
+#include "gsv/base/sorting.h"
 #include "gsv/scenario/fault.h"
 
 namespace gsv::simulation {
@@ -17,8 +18,7 @@ class FaultSchedule {
  public:
   // Faults are applied in the order of their times. Faults with equal times keep the given order.
   explicit FaultSchedule(std::vector<scenario::Fault> faults) : faults_(std::move(faults)) {
-    std::stable_sort(faults_.begin(), faults_.end(),
-                     [](const auto& a, const auto& b) { return a.at < b.at; });
+    base::Sort(faults_, [](const auto& a, const auto& b) { return a.at < b.at; });
   }
 
   const std::vector<scenario::Fault>& all() const { return faults_; }

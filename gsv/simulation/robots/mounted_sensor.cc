@@ -1,11 +1,12 @@
 #include "gsv/simulation/robots/mounted_sensor.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "gsv/base/sorting.h"
 
 namespace gsv::simulation {
 namespace {
@@ -78,7 +79,7 @@ std::shared_ptr<const SensorDesigns::List> SensorDesigns::Of(
     }
     designs.push_back(*std::move(design));
   }
-  std::stable_sort(designs.begin(), designs.end(), [](const auto& a, const auto& b) {
+  base::Sort(designs, [](const auto& a, const auto& b) {
     return a->description.name < b->description.name;
   });
   known = std::make_shared<const List>(std::move(designs));
