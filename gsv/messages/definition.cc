@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/cdr_reader.h"
+#include "gsv/base/named.h"
 
 namespace gsv::messages {
 namespace {
@@ -76,7 +77,7 @@ base::Result<Definition> Definition::Parse(std::string_view name, std::string_vi
 }
 
 base::Status Definition::AddStruct(const std::string& type, std::string_view text) {
-  static const std::map<std::string, std::pair<Kind, std::size_t>, std::less<>> kNumbers = {
+  static constexpr base::Named<std::pair<Kind, std::size_t>> kNumbers[] = {
       {"bool", {Kind::kBool, 1}},       {"byte", {Kind::kUnsigned, 1}},
       {"char", {Kind::kUnsigned, 1}},   {"int8", {Kind::kInteger, 1}},
       {"uint8", {Kind::kUnsigned, 1}},  {"int16", {Kind::kInteger, 2}},
@@ -106,10 +107,9 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
       base.resize(bracket);
     }
     base.resize(std::min(base.size(), base.find('<')));  // string<=N
-    const auto number = kNumbers.find(base);
-    if (number != kNumbers.end()) {
-      field.kind = number->second.first;
-      field.size = number->second.second;
+    if (const auto* number = base::FindNamed(kNumbers, base)) {
+      field.kind = number->first;
+      field.size = number->second;
     } else if (base == "string" || base == "wstring") {
       if (base == "wstring")
         return Bad("wide strings (wstring) are not supported", type + "." + field.name);

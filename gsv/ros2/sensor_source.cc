@@ -1,10 +1,10 @@
 #include "gsv/ros2/sensor_source.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "gsv/base/log.h"
+#include "gsv/base/named.h"
 #include "gsv/messages/geometry_msgs.h"
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
@@ -30,7 +30,7 @@ constexpr double kUsualRate = 20;
 constexpr double kUsualImageRate = 15;
 
 const UsualTopic* FindUsualTopic(const std::string& type) {
-  static const std::map<std::string, UsualTopic> kUsualTopics{
+  static constexpr base::Named<UsualTopic> kUsualTopics[] = {
       {readings::Lidar::kType, {"scan", true, 10}},
       {readings::Odometry::kType, {"odom", false, 50}},
       {readings::Imu::kType, {"imu", true, 100}},
@@ -46,8 +46,7 @@ const UsualTopic* FindUsualTopic(const std::string& type) {
       {readings::Camera::kWideAngleType, {"camera", true, kUsualImageRate}},
       {readings::DepthImage::kType, {"depth", true, kUsualImageRate}},
   };
-  const auto found = kUsualTopics.find(type);
-  return found == kUsualTopics.end() ? nullptr : &found->second;
+  return base::FindNamed(kUsualTopics, type);
 }
 
 bool Append(const std::vector<std::uint8_t>& bytes, EncodedMessage& out) {

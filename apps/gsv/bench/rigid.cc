@@ -1,5 +1,4 @@
 #include <chrono>
-#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +8,7 @@
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/rigid_scenario.h"
+#include "gsv/base/named.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/solver_count.h"
 #include "gsv/sensing/devices/built_in.h"
@@ -27,15 +27,15 @@ struct RigidArguments {
   bool json = false;
 };
 
-const std::map<std::string, RigidScenario> kScenes{{"rovers", RigidScenario::kRovers},
-                                                   {"boxes", RigidScenario::kBoxes},
-                                                   {"terrain", RigidScenario::kTerrain},
-                                                   {"arms", RigidScenario::kArms}};
+constexpr base::Named<RigidScenario> kScenes[] = {{"rovers", RigidScenario::kRovers},
+                                                  {"boxes", RigidScenario::kBoxes},
+                                                  {"terrain", RigidScenario::kTerrain},
+                                                  {"arms", RigidScenario::kArms}};
 
 base::Result<std::shared_ptr<simulation::Simulation>> RunRigid(const RigidArguments& arguments) {
   simulation::Specification specification;
   specification.name = "rigid";
-  specification.world = RigidWorldOf(kScenes.at(arguments.scene), arguments.bodies);
+  specification.world = RigidWorldOf(*base::FindNamed(kScenes, arguments.scene), arguments.bodies);
   specification.mode = simulation::Mode::kLockstep;
   specification.duration = base::FromSeconds(arguments.duration);
   specification.threads = arguments.threads;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +12,8 @@
 
 #include "apps/gsv/machine/running_instances.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
+#include "gsv/base/named.h"
 #include "gsv/broker/client/broker_administration.h"
 #include "gsv/broker/client/offer_listing.h"
 
@@ -149,10 +150,14 @@ Actions TypeActions(const TypeArguments& arguments) {
           }};
 }
 
+constexpr base::Named<broker::FollowOption> kFollowOptions[] = {
+    {"local_only", broker::FollowOption::kLocalOnly},
+    {"if_no_local", broker::FollowOption::kIfNoLocal},
+    {"always", broker::FollowOption::kAlways}};
+
 struct LinkArguments : Listing {
   std::string target;
-  broker::FollowOption pass_on = broker::FollowOption::kAlways;
-  broker::FollowOption limit = broker::FollowOption::kAlways;
+  std::string pass_on = "always", limit = "always";
 };
 
 Actions LinkActions(const LinkArguments& arguments) {
@@ -165,9 +170,10 @@ Actions LinkActions(const LinkArguments& arguments) {
           },
       .add =
           [&arguments, administration] {
+            const auto pass_on = *base::FindNamed(kFollowOptions, arguments.pass_on);
+            const auto limit = *base::FindNamed(kFollowOptions, arguments.limit);
             return administration.AddLink(arguments.name, arguments.target,
-                                          std::min(arguments.pass_on, arguments.limit),
-                                          arguments.limit);
+                                          std::min(pass_on, limit), limit);
           },
       .remove = [&arguments, administration] { return administration.RemoveLink(arguments.name); }};
 }
@@ -212,10 +218,7 @@ void AddLinksCommand(const CommandLine& line) {
   const auto arguments = AddListing<LinkArguments>(
       line, "links", "List, add and remove links of a broker to other brokers", "a link",
       &LinkActions);
-  const std::map<std::string, broker::FollowOption> rules = {
-      {"local_only", broker::FollowOption::kLocalOnly},
-      {"if_no_local", broker::FollowOption::kIfNoLocal},
-      {"always", broker::FollowOption::kAlways}};
+  const CLI::Validator is_follow_option = OneOf({"local_only", "if_no_local", "always"});
   arguments->add->add_option("NAME", arguments->name, "name of the link")->required();
   arguments->add
       ->add_option("TARGET", arguments->target,
@@ -224,13 +227,13 @@ void AddLinksCommand(const CommandLine& line) {
   arguments->add
       ->add_option("--pass-on", arguments->pass_on,
                    "link policy that the other broker applies if the importer sets none")
-      ->transform(CLI::CheckedTransformer(rules))
+      ->check(is_follow_option)
       ->type_name("local_only|if_no_local|always")
       ->default_str("always");
   arguments->add
       ->add_option("--limit", arguments->limit,
                    "strongest link policy that queries through this link may use")
-      ->transform(CLI::CheckedTransformer(rules))
+      ->check(is_follow_option)
       ->type_name("local_only|if_no_local|always")
       ->default_str("always");
   arguments->remove->add_option("NAME", arguments->name, "name of the link")->required();

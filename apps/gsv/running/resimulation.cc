@@ -17,6 +17,7 @@
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/simulations/recordings.h"
+#include "gsv/base/named.h"
 #include "gsv/base/sorting.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/hosting/recorded_commands.h"
@@ -145,7 +146,7 @@ base::Status TakeFrom(const recording::MessageRecord& record, RecordedRobots& ro
 // Makes every robot repeat its recorded commands.
 base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
   using namespace messages::gsv_msgs;
-  const std::map<std::string_view, decltype(&TakeFrom<Command>)> takers = {
+  const base::Named<decltype(&TakeFrom<Command>)> takers[] = {
       {topics::kCommands.name, TakeFrom<Command>},
       {topics::kActuators.name, TakeFrom<ActuatorCommand>},
       {topics::kRadio.name, TakeFrom<Transmission>}};
@@ -158,9 +159,9 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
     if (!*record) break;
     const auto channel = summary.channels.find((*record)->channel_id);
     if (channel == summary.channels.end()) continue;
-    const auto take = takers.find(channel->second.topic);
-    if (take == takers.end()) continue;
-    if (auto ok = take->second(**record, *robots); !ok) return ok;
+    const auto* take = base::FindNamed(takers, channel->second.topic);
+    if (take == nullptr) continue;
+    if (auto ok = (*take)(**record, *robots); !ok) return ok;
   }
   for (auto& [name, acts] : *robots) {
     base::Sort(acts.commands, [](const auto& a, const auto& b) { return a.time < b.time; });

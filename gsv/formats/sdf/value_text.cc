@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+
+#include "gsv/base/named.h"
 
 namespace gsv::formats {
 namespace {
@@ -177,7 +178,7 @@ bool IsZeroVector(std::string_view text) {
 
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion) {
-  static const std::map<std::string, std::size_t> vectors = {
+  static constexpr base::Named<std::size_t> kVectors[] = {
       {"vector3", 3},  {"ignition::math::Vector3d", 3}, {"vector2d", 2},
       {"vector2i", 2}, {"ignition::math::Vector2d", 2}, {"ignition::math::Vector2i", 2}};
   if (WordsOf(text).empty()) return {text, ""};  // for an empty text, libsdformat uses the default
@@ -188,9 +189,8 @@ RepairedText RepairText(const std::string& type, const std::string& text,
   }
   if (type == "pose" || type == "ignition::math::Pose3d") return RepairPose(text, has_quaternion);
   if (type == "color" || type == "ignition::math::Color") return RepairColour(text, otherwise);
-  const auto vector = vectors.find(type);
-  return vector == vectors.end() ? RepairedText{text, ""}
-                                 : RepairVector(vector->second, text, otherwise);
+  const std::size_t* size = base::FindNamed(kVectors, type);
+  return size == nullptr ? RepairedText{text, ""} : RepairVector(*size, text, otherwise);
 }
 
 RepairedText AsPlainNumbers(RepairedText repaired, const std::string& otherwise) {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
+#include "gsv/base/named.h"
 #include "gsv/formats/xacro/operators.h"
 #include "gsv/formats/xacro/sequences.h"
 
@@ -32,40 +32,34 @@ base::Result<Value> Whole(double value) {
 
 // A function of one real number.
 using RealFunction = double (*)(double);
-const std::map<std::string, RealFunction>& RealFunctions() {
-  static const std::map<std::string, RealFunction> functions{
-      {"sin", [](double x) { return std::sin(x); }},
-      {"cos", [](double x) { return std::cos(x); }},
-      {"tan", [](double x) { return std::tan(x); }},
-      {"asin", [](double x) { return std::asin(x); }},
-      {"acos", [](double x) { return std::acos(x); }},
-      {"atan", [](double x) { return std::atan(x); }},
-      {"sinh", [](double x) { return std::sinh(x); }},
-      {"cosh", [](double x) { return std::cosh(x); }},
-      {"tanh", [](double x) { return std::tanh(x); }},
-      {"sqrt", [](double x) { return std::sqrt(x); }},
-      {"exp", [](double x) { return std::exp(x); }},
-      {"log10", [](double x) { return std::log10(x); }},
-      {"log2", [](double x) { return std::log2(x); }},
-      {"fabs", [](double x) { return std::abs(x); }},
-      // Uses the same operations as CPython, so that the results are bit-identical.
-      {"radians", [](double x) { return x * (std::numbers::pi / 180); }},
-      {"degrees", [](double x) { return x * (180 / std::numbers::pi); }},
-  };
-  return functions;
-}
+constexpr base::Named<RealFunction> kRealFunctions[] = {
+    {"sin", [](double x) { return std::sin(x); }},
+    {"cos", [](double x) { return std::cos(x); }},
+    {"tan", [](double x) { return std::tan(x); }},
+    {"asin", [](double x) { return std::asin(x); }},
+    {"acos", [](double x) { return std::acos(x); }},
+    {"atan", [](double x) { return std::atan(x); }},
+    {"sinh", [](double x) { return std::sinh(x); }},
+    {"cosh", [](double x) { return std::cosh(x); }},
+    {"tanh", [](double x) { return std::tanh(x); }},
+    {"sqrt", [](double x) { return std::sqrt(x); }},
+    {"exp", [](double x) { return std::exp(x); }},
+    {"log10", [](double x) { return std::log10(x); }},
+    {"log2", [](double x) { return std::log2(x); }},
+    {"fabs", [](double x) { return std::abs(x); }},
+    // Uses the same operations as CPython, so that the results are bit-identical.
+    {"radians", [](double x) { return x * (std::numbers::pi / 180); }},
+    {"degrees", [](double x) { return x * (180 / std::numbers::pi); }},
+};
 
 using Surface2 = double (*)(double, double);
-const std::map<std::string, Surface2>& Surfaces() {
-  static const std::map<std::string, Surface2> surfaces{
-      {"atan2", [](double y, double x) { return std::atan2(y, x); }},
-      {"pow", [](double x, double y) { return std::pow(x, y); }},
-      {"fmod", [](double x, double y) { return std::fmod(x, y); }},
-      {"hypot", [](double x, double y) { return std::hypot(x, y); }},
-      {"copysign", [](double x, double y) { return std::copysign(x, y); }},
-  };
-  return surfaces;
-}
+constexpr base::Named<Surface2> kSurfaces[] = {
+    {"atan2", [](double y, double x) { return std::atan2(y, x); }},
+    {"pow", [](double x, double y) { return std::pow(x, y); }},
+    {"fmod", [](double x, double y) { return std::fmod(x, y); }},
+    {"hypot", [](double x, double y) { return std::hypot(x, y); }},
+    {"copysign", [](double x, double y) { return std::copysign(x, y); }},
+};
 
 base::Result<Value> Absolute(const Arguments& a) {
   if (a.size() != 1 || !a[0].is_number()) return InvalidCall("abs() takes one number");
@@ -187,31 +181,28 @@ base::Result<Value> Items(const Arguments& a, Value (*make)(List)) {
   return InvalidCall("list() and tuple() take a list");
 }
 
-const std::map<std::string, Function>& Functions() {
-  static const std::map<std::string, Function> functions{
-      {"abs", &Absolute},
-      {"min", [](const Arguments& a) { return Extreme(a, "<"); }},
-      {"max", [](const Arguments& a) { return Extreme(a, ">"); }},
-      {"round", &Round},
-      {"sum", &Sum},
-      {"len", &Length},
-      {"int", &ToInteger},
-      {"float", &ToFloat},
-      {"log", &Logarithm},
-      {"floor", [](const Arguments& a) { return Rounded(a, &std::floor); }},
-      {"ceil", [](const Arguments& a) { return Rounded(a, &std::ceil); }},
-      {"trunc", [](const Arguments& a) { return Rounded(a, &std::trunc); }},
-      {"list", [](const Arguments& a) { return Items(a, &MakeList); }},
-      {"tuple", [](const Arguments& a) { return Items(a, &MakeTuple); }},
-      {"str",
-       [](const Arguments& a) -> base::Result<Value> {
-         return Value{a.empty() ? std::string() : ToText(a[0])};
-       }},
-      {"bool",
-       [](const Arguments& a) -> base::Result<Value> { return Value{!a.empty() && IsTrue(a[0])}; }},
-  };
-  return functions;
-}
+constexpr base::Named<Function> kFunctions[] = {
+    {"abs", &Absolute},
+    {"min", [](const Arguments& a) { return Extreme(a, "<"); }},
+    {"max", [](const Arguments& a) { return Extreme(a, ">"); }},
+    {"round", &Round},
+    {"sum", &Sum},
+    {"len", &Length},
+    {"int", &ToInteger},
+    {"float", &ToFloat},
+    {"log", &Logarithm},
+    {"floor", [](const Arguments& a) { return Rounded(a, &std::floor); }},
+    {"ceil", [](const Arguments& a) { return Rounded(a, &std::ceil); }},
+    {"trunc", [](const Arguments& a) { return Rounded(a, &std::trunc); }},
+    {"list", [](const Arguments& a) { return Items(a, &MakeList); }},
+    {"tuple", [](const Arguments& a) { return Items(a, &MakeTuple); }},
+    {"str",
+     [](const Arguments& a) -> base::Result<Value> {
+       return Value{a.empty() ? std::string() : ToText(a[0])};
+     }},
+    {"bool",
+     [](const Arguments& a) -> base::Result<Value> { return Value{!a.empty() && IsTrue(a[0])}; }},
+};
 
 bool AreNumbers(const Arguments& a) {
   return std::all_of(a.begin(), a.end(), [](const Value& value) { return value.is_number(); });
@@ -363,23 +354,24 @@ std::optional<Value> Constant(const std::string& name) {
 }
 
 bool IsFunction(const std::string& name) {
-  return Functions().contains(name) || IsSequenceFunction(name) || RealFunctions().contains(name) ||
-         Surfaces().contains(name);
+  return base::FindNamed(kFunctions, name) != nullptr || IsSequenceFunction(name) ||
+         base::FindNamed(kRealFunctions, name) != nullptr ||
+         base::FindNamed(kSurfaces, name) != nullptr;
 }
 
 base::Result<Value> CallFunction(const std::string& name, const Arguments& arguments) {
-  if (const auto it = Functions().find(name); it != Functions().end()) return it->second(arguments);
+  if (const Function* function = base::FindNamed(kFunctions, name)) return (*function)(arguments);
   if (IsSequenceFunction(name)) return CallSequenceFunction(name, arguments);
-  if (const auto it = RealFunctions().find(name); it != RealFunctions().end()) {
+  if (const RealFunction* function = base::FindNamed(kRealFunctions, name)) {
     if (arguments.size() != 1 || !AreNumbers(arguments))
       return InvalidCall(name + "() takes a number");
-    return RealResult(name, it->second(Real(arguments[0])), arguments);
+    return RealResult(name, (*function)(Real(arguments[0])), arguments);
   }
-  if (const auto it = Surfaces().find(name); it != Surfaces().end()) {
+  if (const Surface2* function = base::FindNamed(kSurfaces, name)) {
     if (arguments.size() != 2 || !AreNumbers(arguments)) {
       return InvalidCall(name + "() takes two numbers");
     }
-    return RealResult(name, it->second(Real(arguments[0]), Real(arguments[1])), arguments);
+    return RealResult(name, (*function)(Real(arguments[0]), Real(arguments[1])), arguments);
   }
   return InvalidCall("there is no function " + name + "()");
 }

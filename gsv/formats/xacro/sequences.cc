@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
+#include "gsv/base/check.h"
+#include "gsv/base/named.h"
 #include "gsv/formats/xacro/operators.h"
 
 namespace gsv::formats::xacro {
@@ -88,12 +89,9 @@ base::Result<Value> All(const List& a) {
 }
 
 // Functions of lists; each takes one list, except zip().
-const std::map<std::string, base::Result<Value> (*)(const List&)>& OfLists() {
-  static const std::map<std::string, base::Result<Value> (*)(const List&)> functions{
-      {"sorted", &Sorted}, {"reversed", &Reversed}, {"enumerate", &Enumerated},
-      {"zip", &Zipped},    {"any", &Any},           {"all", &All}};
-  return functions;
-}
+constexpr base::Named<base::Result<Value> (*)(const List&)> kOfLists[] = {
+    {"sorted", &Sorted}, {"reversed", &Reversed}, {"enumerate", &Enumerated},
+    {"zip", &Zipped},    {"any", &Any},           {"all", &All}};
 
 // Returns the text of a value for a replacement field of format(), such as ".2f".
 base::Result<std::string> FormattedField(const Value& value, const std::string& format) {
@@ -115,7 +113,7 @@ base::Result<std::string> FormattedField(const Value& value, const std::string& 
 }  // namespace
 
 bool IsSequenceFunction(const std::string& name) {
-  return name == "range" || OfLists().contains(name);
+  return name == "range" || base::FindNamed(kOfLists, name) != nullptr;
 }
 
 base::Result<Value> CallSequenceFunction(const std::string& name, const List& arguments) {
@@ -124,7 +122,9 @@ base::Result<Value> CallSequenceFunction(const std::string& name, const List& ar
                          std::all_of(arguments.begin(), arguments.end(),
                                      [](const Value& each) { return each.items() != nullptr; });
   if (!are_lists) return InvalidList(name + "() takes a list");
-  return OfLists().at(name)(arguments);
+  const auto* function = base::FindNamed(kOfLists, name);
+  GSV_CHECK(function != nullptr);
+  return (*function)(arguments);
 }
 
 base::Result<Value> Formatted(const std::string& text, const List& arguments) {

@@ -2,11 +2,12 @@
 
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <numbers>
 #include <system_error>
 
 #include <yaml-cpp/yaml.h>
+
+#include "gsv/base/named.h"
 
 namespace gsv::formats::xacro {
 namespace {
@@ -15,17 +16,14 @@ constexpr int kMaxYamlDepth = 32;
 constexpr std::size_t kMaxYamlNodes = 20'000;
 
 // The units of xacro's YAML tags, in SI units.
-const std::map<std::string, double>& Units() {
-  static const std::map<std::string, double> units{
-      {"!degrees", std::numbers::pi / 180},
-      {"!radians", 1},
-      {"!meters", 1},
-      {"!millimeters", 0.001},
-      {"!inches", 0.0254},
-      {"!foot", 0.3048},
-  };
-  return units;
-}
+constexpr base::Named<double> kUnits[] = {
+    {"!degrees", std::numbers::pi / 180},
+    {"!radians", 1},
+    {"!meters", 1},
+    {"!millimeters", 0.001},
+    {"!inches", 0.0254},
+    {"!foot", 0.3048},
+};
 
 class YamlReader {
  public:
@@ -74,10 +72,10 @@ class YamlReader {
   base::Result<Value> Scalar(const YAML::Node& node) const {
     const std::string& text = node.Scalar();
     const std::string& tag = node.Tag();
-    if (const auto unit = Units().find(tag); unit != Units().end()) {
+    if (const double* unit = base::FindNamed(kUnits, tag)) {
       const auto number = ParseFloat(text);
       if (!number) return Refuse(tag + " takes a number, not \"" + text + "\"", node.Mark());
-      return Value{*number * unit->second};
+      return Value{*number * *unit};
     }
     if (tag == "!") return Value{text};  // in quotes
     if (text == "null" || text == "~" || text.empty()) return Value{};

@@ -1,7 +1,8 @@
 #include "gsv/rendering/lenses/lens.h"
 
 #include <cmath>
-#include <map>
+
+#include "gsv/base/named.h"
 
 namespace gsv::rendering {
 namespace {
@@ -53,13 +54,12 @@ Intrinsics IntrinsicsOf(const CameraParameters& camera) {
 
 base::Result<WideView> WideViewNamed(const std::string& type) {
   using F = WideView::Function;
-  static const std::map<std::string, WideView> kKnown = {
+  static constexpr base::Named<WideView> kKnown[] = {
       {"gnomonical", {F::kTangent, 1, 1}},   {"stereographic", {F::kTangent, 2, 2}},
       {"equidistant", {F::kIdentity, 1, 1}}, {"solid_angle", {F::kSine, 2, 2}},
       {"orthographic", {F::kSine, 1, 1}},
   };
-  const auto known = kKnown.find(type);
-  if (known != kKnown.end()) return known->second;
+  if (const WideView* known = base::FindNamed(kKnown, type)) return *known;
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "there is no lens.type \"" + type +
                         "\": it is gnomonical, stereographic, equidistant, solid_angle, "

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "gsv/base/named.h"
 #include "gsv/messages/service_msgs.h"
 
 namespace gsv::ros2 {
@@ -55,11 +56,14 @@ bool SetShape(std::string_view brackets, FieldType& type) {
 
 // Parses the type of a field as in a definition: "float64[36]", "string<=10", "Vector3[]".
 std::optional<FieldType> ParseFieldType(std::string_view text, std::string_view package) {
-  static const std::map<std::string, std::uint8_t, std::less<>> kIds =
-      {{"int8", 2},     {"uint8", 3},    {"int16", 4},       {"uint16", 5},
-       {"int32", 6},    {"uint32", 7},   {"int64", 8},       {"uint64", 9},
-       {"float32", 10}, {"float64", 11}, {"char", 3},  // rosidl treats char as uint8
-       {"bool", 15},    {"byte", 16},    {"string", kString}};
+  static constexpr base::Named<std::uint8_t> kIds[] = {{"int8", 2},        {"uint8", 3},
+                                                       {"int16", 4},       {"uint16", 5},
+                                                       {"int32", 6},       {"uint32", 7},
+                                                       {"int64", 8},       {"uint64", 9},
+                                                       {"float32", 10},    {"float64", 11},
+                                                       {"char", 3},  // rosidl treats char as uint8
+                                                       {"bool", 15},       {"byte", 16},
+                                                       {"string", kString}};
   const std::size_t bracket = std::min(text.find('['), text.size());
   std::string_view value = text.substr(0, bracket);
   FieldType type;
@@ -68,8 +72,8 @@ std::optional<FieldType> ParseFieldType(std::string_view text, std::string_view 
     if (!capacity) return std::nullopt;
     type.id = kBoundedString;
     type.string_capacity = *capacity;
-  } else if (const auto known = kIds.find(value); known != kIds.end()) {
-    type.id = known->second;
+  } else if (const std::uint8_t* known = base::FindNamed(kIds, value)) {
+    type.id = *known;
   } else {
     type.id = kNested;
     type.nested_type = FullTypeName(value, package);
