@@ -1,7 +1,7 @@
 // Sorts small arrays with one compiled function for all types of elements.
 //
 // std::sort and std::stable_sort are compiled again for each type and each comparison, which takes
-// the compiler 0.05 to 0.2 s. Use Sort() wherever the time to sort does not matter. Use std::sort
+// the compiler 0.05 to 0.3 s. Use Sort() wherever the time to sort does not matter. Use std::sort
 // in steps, sensors, images and messages.
 #pragma once
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/text_file.h"
 #include "gsv/gateway/testing/web_client.h"
 #include "tests/support/programs.h"
 
@@ -69,8 +70,7 @@ class CrashReports : public ::testing::Test {
     while (std::chrono::steady_clock::now() < give_up) {
       std::error_code error;
       for (const auto& entry : fs::directory_iterator(notes(), error)) {
-        std::ifstream file(entry.path());
-        const json note = json::parse(file, nullptr, false);
+        const json note = json::parse(base::ReadTextFile(entry.path()), nullptr, false);
         if (entry.path().extension() == ".json" && note.is_object() && holds(note)) return;
       }
       std::this_thread::yield();

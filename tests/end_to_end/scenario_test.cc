@@ -1,10 +1,10 @@
 // Tests scenario files: `gsv run NAME.yaml`, and the scenario in each recording.
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "gsv/base/text_file.h"
 #include "tests/support/programs.h"
 
 namespace gsv::testing {
@@ -114,7 +114,7 @@ TEST_F(Scenario, ExtractingAMissingAttachmentIsAnError) {
   const std::string scene = folder_.path() / "scene.json";
   EXPECT_EQ(RunProgram("gsv", {"rec", "extract", recording, "scene.json", "-o", scene}).ending,
             "exit code 0");
-  EXPECT_EQ(nlohmann::json::parse(std::ifstream(scene))["name"], "playground");
+  EXPECT_EQ(nlohmann::json::parse(base::ReadTextFile(scene))["name"], "playground");
   const Outcome taken =
       RunProgram("gsv", {"rec", "extract", recording, "scene.json", "-o", recording});
   EXPECT_EQ(taken.ending, "exit code 5");

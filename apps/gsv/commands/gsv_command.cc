@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
@@ -126,23 +126,23 @@ std::string UnknownWord(const CLI::App& command, const std::vector<std::string>&
 // "topic is required", "--seed: 1 required N missing" or "--start: At least 3 required but received
 // 1". Other sentences are returned unchanged.
 std::string MissingSentence(const CLI::App& command, const std::string& what) {
-  static const std::regex required("(\\S+) is required"), value("(\\S+): \\d+ required .* missing"),
-      values("(\\S+): At least (\\d+) required but received (\\d+)");
+  const std::string word = what.substr(0, what.find(' ')), rest = what.substr(word.size());
   const auto name_and_value = [&](const std::string& name) {
     const CLI::Option* const option = command.get_option_no_throw(name);
     return option == nullptr ? std::string() : " " + ValueNameOf(*option);
   };
-  std::smatch match;
-  if (std::regex_match(what, match, required)) {
-    const std::string name = match[1];
-    return name.starts_with('-') ? "missing option " + name + name_and_value(name)
-                                 : "missing argument " + name;
+  if (rest == " is required") {
+    return word.starts_with('-') ? "missing option " + word + name_and_value(word)
+                                 : "missing argument " + word;
   }
-  if (std::regex_match(what, match, value)) {
-    return match[1].str() + ": missing value" + name_and_value(match[1]);
+  if (!word.ends_with(':')) return what;
+  const std::string name = word.substr(0, word.size() - 1);
+  if (rest.find(" required ") != std::string::npos && rest.ends_with(" missing")) {
+    return name + ": missing value" + name_and_value(name);
   }
-  if (std::regex_match(what, match, values)) {
-    return match[1].str() + ": expected " + match[2].str() + " values, found " + match[3].str();
+  unsigned expected = 0, found = 0;
+  if (std::sscanf(rest.c_str(), " At least %u required but received %u", &expected, &found) == 2) {
+    return fmt::format("{}: expected {} values, found {}", name, expected, found);
   }
   return what;
 }

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <fstream>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/test_folder.h"
+#include "gsv/base/text_file.h"
 
 namespace gsv::app {
 namespace {
@@ -32,8 +32,7 @@ class ServerNoteTest : public ::testing::Test {
     note.simulations = {Arena()};
     const auto file = folder_.path() / "1-1.json";
     EXPECT_TRUE(WriteNote(file, note));
-    std::ifstream stream(file);
-    auto json = nlohmann::json::parse(stream);
+    auto json = nlohmann::json::parse(base::ReadTextFile(file));
     change(json);
     folder_.Write("1-1.json", json.dump());
     return ReadNotes(folder_.path());

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -124,7 +125,8 @@ class GlbModelReader {
     const std::size_t json_size = NumberAt(bytes, 12);
     if (NumberAt(bytes, 16) != kJsonChunk) throw Flaw{"it has no JSON"};
     const GlbBytes text = PartOf(bytes, 20, json_size);
-    document_ = GlbJson::parse(text.begin(), text.end(), nullptr, false);
+    const std::string_view characters(reinterpret_cast<const char*>(text.data()), text.size());
+    document_ = GlbJson::parse(characters, nullptr, false);
     if (!document_.is_object()) throw Flaw{"its JSON cannot be read"};
     const std::size_t next = 20 + json_size;
     if (next + 8 <= bytes.size() && NumberAt(bytes, next + 4) == kBinChunk) {

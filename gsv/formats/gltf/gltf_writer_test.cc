@@ -40,7 +40,7 @@ const aiScene* Read(const Bytes& glb, Assimp::Importer& importer) {
 nlohmann::json JsonOf(const Bytes& glb) {
   std::uint32_t size = 0;
   std::memcpy(&size, glb.data() + 12, 4);
-  return nlohmann::json::parse(glb.begin() + 20, glb.begin() + 20 + size);
+  return nlohmann::json::parse(std::string(glb.begin() + 20, glb.begin() + 20 + size));
 }
 
 model::Link LinkWith(const std::string& name, geometry::Shape shape,

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/text_file.h"
 #include "gsv/recording/testing/test_recording.h"
 
 namespace gsv::recording {
@@ -37,8 +38,8 @@ TEST_F(BagFolder, ContainsARecordingAndItsMetadata) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
   ASSERT_TRUE(WriteBagMetadata(*file));
 
-  std::ifstream text(folder_ / "metadata.yaml");
-  const auto bag = nlohmann::json::parse(text)["rosbag2_bagfile_information"];
+  const auto bag = nlohmann::json::parse(
+      base::ReadTextFile(folder_ / "metadata.yaml"))["rosbag2_bagfile_information"];
   EXPECT_EQ(bag["version"], 5);
   EXPECT_EQ(bag["storage_identifier"], "mcap");
   EXPECT_EQ(bag["message_count"], 30);
