@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
 
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/relayed_images.h"

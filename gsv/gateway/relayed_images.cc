@@ -5,10 +5,9 @@
 #include <string>
 #include <utility>
 
-#include <boost/asio/steady_timer.hpp>
-
 #include "gsv/gateway/drawing/image_parts.h"
 #include "gsv/gateway/drawing/view_routes.h"
+#include "gsv/gateway/transport/tcp.h"
 #include "gsv/gateway/upstream/fetch.h"
 
 namespace gsv::gateway {
@@ -81,10 +80,10 @@ class RelayedStream final : public BodyStream, public std::enable_shared_from_th
   }
 
   void WaitAndAsk(const Take& take) {
-    auto timer = std::make_shared<boost::asio::steady_timer>(
+    auto timer = std::make_shared<transport::Timer>(
         io_, std::min<Clock::time_point>(due_, Clock::now() + kMaxWait));
-    timer->async_wait(
-        [self = shared_from_this(), timer, take](boost::system::error_code) { self->Ask(take); });
+    Wait(*timer,
+         transport::Completion([self = shared_from_this(), timer, take] { self->Ask(take); }));
   }
 
   SharedBytes PartOf(const Response& image, bool is_first) {

@@ -9,11 +9,13 @@
 #include <chrono>
 #include <memory>
 
-#include <boost/asio/io_context.hpp>
-
 #include "gsv/gateway/http/http.h"
 #include "gsv/gateway/server/worker_pool.h"
 #include "gsv/gateway/upstream/address.h"
+
+namespace boost::asio {
+class io_context;
+}
 
 namespace gsv::gateway {
 

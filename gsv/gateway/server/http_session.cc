@@ -5,15 +5,17 @@
 #include <utility>
 
 #include <boost/asio/dispatch.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "gsv/base/log.h"
 #include "gsv/gateway/server/websocket_session.h"
 #include "gsv/gateway/transport/byte_stream.h"
+#include "gsv/gateway/transport/http_message.h"
 
 namespace gsv::gateway {
 namespace {
@@ -23,7 +25,7 @@ namespace http = beast::http;
 using boost::system::error_code;
 using transport::ByteStream;
 using transport::Completion;
-using SpanBody = http::span_body<const char>;
+using EmptyResponse = http::response<http::empty_body>;
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -55,6 +57,10 @@ constexpr std::chrono::minutes kUploadTime{5};
 
 // Time limit for a client to begin TLS, and to close the connection.
 constexpr std::chrono::seconds kLeaveTime{1};
+// The first byte of a connection with TLS: the record type of a handshake (RFC 8446, section 5.1).
+constexpr unsigned char kTlsHandshake = 22;
+// Maximum number of bytes that are read to detect TLS.
+constexpr std::size_t kFirstRead = 1536;
 // Time limit for a handshake, unless the limit of a request is shorter.
 constexpr std::chrono::milliseconds kHandshakeTime{10'000};
 
@@ -99,11 +105,11 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     tcp().expires_after(limits().request_time);
     is_idle_ = true;
-    http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](error_code error, std::size_t) {
-                              self->is_idle_ = false;
-                              self->OnHeader(error);
-                            });
+    transport::ReadHeader(stream_, buffer_, *parser_,
+                          Completion([self = shared_from_this()](error_code error) {
+                            self->is_idle_ = false;
+                            self->OnHeader(error);
+                          }));
   }
 
   void Shutdown() override {
@@ -113,7 +119,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   void Cut() override { tcp().close(); }
 
  private:
-  beast::tcp_stream& tcp() { return stream_.tcp(); }
+  transport::TcpStream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
   // Called before the body is read. Refuses a body that is too long, and a file if the client has
@@ -147,9 +153,9 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   }
 
   void ReadBody() {
-    http::async_read(
+    transport::ReadMessage(
         stream_, buffer_, *parser_,
-        [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
+        Completion([self = shared_from_this()](error_code failed) { self->OnRead(failed); }));
   }
 
   void RespondToError(error_code error) {
@@ -242,10 +248,10 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     context_->handler.Handle(
         *match_.route, TakeRequest(), [self = shared_from_this()](Response response) mutable {
           auto executor = self->stream_.get_executor();
-          boost::asio::post(executor,
-                            [self = std::move(self), answer = std::move(response)]() mutable {
-                              self->Write(std::move(answer));
-                            });
+          transport::Post(executor, Completion([self = std::move(self),
+                                                answer = std::move(response)]() mutable {
+                            self->Write(std::move(answer));
+                          }));
         });
   }
 
@@ -285,21 +291,14 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     ++context_->traffic->answers.at(static_cast<std::size_t>(response.status / 100));
     keep_alive_ = keep_alive_ && !context_->stopping && !response.stream;
     if (response.stream && !is_head_) return WriteStream(response);
-    if (is_head_ || response.status == 304 || response.status == 204) {
-      http::response<http::empty_body> message = Header<http::empty_body>(response);
-      const bool has_length = response.status != 304 && response.status != 204 && !response.stream;
-      if (has_length) message.content_length(response.body.size());
-      return Send(std::move(message), {});
-    }
-    http::response<SpanBody> message = Header<SpanBody>(response);
-    message.body() = {response.body.data(), response.body.size()};
-    message.content_length(response.body.size());
-    Send(std::move(message), std::move(response.body));
+    const bool has_length = response.status != 304 && response.status != 204 && !response.stream;
+    EmptyResponse header = Header(response);
+    if (has_length) header.content_length(response.body.size());
+    Send(header, is_head_ || !has_length ? SharedBytes() : std::move(response.body));
   }
 
-  template <typename Body>
-  http::response<Body> Header(const Response& response) const {
-    http::response<Body> message{static_cast<http::status>(response.status), version_};
+  EmptyResponse Header(const Response& response) const {
+    EmptyResponse message{static_cast<http::status>(response.status), version_};
     const auto set = [&](http::field field, const std::string& value) {
       if (!value.empty()) message.set(field, value);
     };
@@ -318,54 +317,49 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return message;
   }
 
-  // Sends a response. `bytes` owns the data of its body.
-  template <typename Body>
-  void Send(http::response<Body> response, SharedBytes bytes) {
-    auto message = std::make_shared<http::response<Body>>(std::move(response));
+  void Send(const EmptyResponse& header, SharedBytes body) {
     tcp().expires_after(limits().request_time);
-    http::async_write(
-        stream_, *message,
-        [self = shared_from_this(), message, bytes](error_code error, std::size_t length) {
+    header_ = transport::HeaderText(header.base());
+    const transport::Parts parts{boost::asio::buffer(header_),
+                                 boost::asio::buffer(body.data(), body.size())};
+    stream_.Write(
+        parts, Completion([self = shared_from_this(), body](error_code error, std::size_t length) {
           self->context_->traffic->sent_bytes += length;
           self->OnWritten(error);
-        });
+        }));
   }
 
   // Sends the header, then the parts of the stream.
   void WriteStream(const Response& response) {
-    struct Message {
-      explicit Message(http::response<http::empty_body> made) : header(std::move(made)) {}
-      http::response<http::empty_body> header;
-      http::response_serializer<http::empty_body> serializer{header};
-    };
-    auto message = std::make_shared<Message>(Header<http::empty_body>(response));
     tcp().expires_after(limits().request_time);
-    http::async_write_header(stream_, message->serializer,
-                             [self = shared_from_this(), message, parts = response.stream](
-                                 error_code error, std::size_t) {
-                               if (!error) self->WriteNextPart(parts);
-                             });
+    header_ = transport::HeaderText(Header(response).base());
+    stream_.Write(
+        {boost::asio::buffer(header_)},
+        Completion([self = shared_from_this(), parts = response.stream](error_code error) {
+          if (!error) self->WriteNextPart(parts);
+        }));
   }
 
   void WriteNextPart(const std::shared_ptr<BodyStream>& parts) {
     if (context_->stopping) return OnWritten({});
     tcp().expires_never();  // the stream has its own time limits
     parts->Next([self = shared_from_this(), parts](std::optional<SharedBytes> part) {
-      boost::asio::post(self->stream_.get_executor(), [self, parts, part = std::move(part)] {
-        if (!part) return self->OnWritten({});
-        self->WritePart(parts, *part);
-      });
+      transport::Post(self->stream_.get_executor(),
+                      Completion([self, parts, part = std::move(part)] {
+                        if (!part) return self->OnWritten({});
+                        self->WritePart(parts, *part);
+                      }));
     });
   }
 
   void WritePart(const std::shared_ptr<BodyStream>& parts, const SharedBytes& part) {
     tcp().expires_after(limits().request_time);
-    boost::asio::async_write(
-        stream_, boost::asio::buffer(part.data(), part.size()),
-        [self = shared_from_this(), parts, part](error_code error, std::size_t length) {
+    stream_.Write(
+        {boost::asio::buffer(part.data(), part.size())},
+        Completion([self = shared_from_this(), parts, part](error_code error, std::size_t length) {
           self->context_->traffic->sent_bytes += length;
           if (!error) self->WriteNextPart(parts);
-        });
+        }));
   }
 
   void OnWritten(error_code error) {
@@ -377,7 +371,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
   void HangUp() {
     error_code ignored;
-    tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    tcp().socket().shutdown(transport::Socket::shutdown_send, ignored);
     Drain();
   }
 
@@ -396,6 +390,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   ByteStream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
+  std::string header_;  // the header of the response that is being sent
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
   KeepTrack keep_track_;
@@ -415,7 +410,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 // serves the client. If they are plain HTTP, the client only gets a message that asks for https://.
 class TlsDetector final : public Connection, public std::enable_shared_from_this<TlsDetector> {
  public:
-  TlsDetector(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+  TlsDetector(transport::Socket socket, std::shared_ptr<ServerContext> context,
               std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(socket)),
         context_(std::move(context)),
@@ -424,18 +419,21 @@ class TlsDetector final : public Connection, public std::enable_shared_from_this
 
   void Open() {
     tcp().expires_after(std::min(kHandshakeTime, context_->options.limits.request_time));
-    beast::async_detect_ssl(stream_, buffer_,
-                            [self = shared_from_this()](error_code error, bool is_tls) {
-                              if (error) return self->tcp().close();
-                              is_tls ? self->ServeTls() : self->RefusePlainHttp();
-                            });
+    stream_.ReadSome(buffer_.prepare(kFirstRead),
+                     Completion([self = shared_from_this()](error_code error, std::size_t length) {
+                       if (error) return self->tcp().close();
+                       self->buffer_.commit(length);
+                       const auto* first =
+                           static_cast<const unsigned char*>(self->buffer_.cdata().data());
+                       *first == kTlsHandshake ? self->ServeTls() : self->RefusePlainHttp();
+                     }));
   }
 
   void Shutdown() override { tcp().close(); }
   void Cut() override { tcp().close(); }
 
  private:
-  beast::tcp_stream& tcp() { return stream_.tcp(); }
+  transport::TcpStream& tcp() { return stream_.tcp(); }
 
   void ServeTls() {
     const auto session = std::make_shared<HttpSession>(std::move(stream_), std::move(buffer_),
@@ -448,13 +446,12 @@ class TlsDetector final : public Connection, public std::enable_shared_from_this
     static constexpr std::string_view kAnswer =
         "HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Type: application/json\r\n\r\n"
         "{\"error\":\"this server speaks HTTPS only; open the address with https://\"}";
-    boost::asio::async_write(stream_, boost::asio::buffer(kAnswer.data(), kAnswer.size()),
-                             [self = shared_from_this()](error_code error, std::size_t) {
-                               if (error) return;
-                               self->tcp().socket().shutdown(
-                                   boost::asio::ip::tcp::socket::shutdown_send, error);
-                               self->Drain();
-                             });
+    stream_.Write({boost::asio::buffer(kAnswer.data(), kAnswer.size())},
+                  Completion([self = shared_from_this()](error_code error) {
+                    if (error) return;
+                    self->tcp().socket().shutdown(transport::Socket::shutdown_send, error);
+                    self->Drain();
+                  }));
   }
 
   // See HttpSession::Drain().
@@ -476,7 +473,7 @@ class TlsDetector final : public Connection, public std::enable_shared_from_this
 
 }  // namespace
 
-void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+void StartHttpSession(transport::Socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track) {
   if (context->tls != nullptr) {

@@ -4,15 +4,14 @@
 #include <functional>
 #include <memory>
 
-#include <boost/asio/ip/tcp.hpp>
-
 #include "gsv/gateway/server/connection.h"
+#include "gsv/gateway/transport/tcp.h"
 
 namespace gsv::gateway {
 
 // Serves `socket`, with TLS if `context->tls` is set. Calls `keep_track` with this session. If a
 // WebSocket session replaces this session, also calls `keep_track` with the WebSocket session.
-void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+void StartHttpSession(transport::Socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track);
 

@@ -7,13 +7,11 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/host_name.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 
 #include "gsv/base/log.h"
 #include "gsv/gateway/server/http_session.h"
 #include "gsv/gateway/server/tls_context.h"
+#include "gsv/gateway/transport/tcp.h"
 
 namespace gsv::gateway {
 namespace {
@@ -21,6 +19,7 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
+using transport::Completion;
 
 // Time limit for clients to close their connections after Stop().
 constexpr std::chrono::seconds kStopTimeout{1};
@@ -58,11 +57,11 @@ base::Error CannotListen(const ServerOptions& options, error_code error) {
           "cannot listen here: " + error.message() + "; choose another address or port", where};
 }
 
-base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
+base::Status Listen(transport::Acceptor& acceptor, const tcp::endpoint& endpoint,
                     const ServerOptions& options) {
   error_code error;
   acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) return base::Fail(CannotListen(options, error));
@@ -70,7 +69,7 @@ base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
 }
 
 // Sends a refusal to a client above the limit, without waiting for the client.
-void RefuseConnection(tcp::socket& socket) {
+void RefuseConnection(transport::Socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"
       "\r\n"
@@ -131,7 +130,7 @@ class BeastServer final : public Server {
 
   void Stop() override {
     if (!thread_.joinable()) return;
-    asio::post(io_, [this] { SayGoodbye(); });
+    transport::Post(io_.get_executor(), Completion([this] { SayGoodbye(); }));
     // The thread ends by itself when the last connection has ended. If that takes longer than
     // kStopTimeout, the thread is stopped.
     finished_.get_future().wait_for(kStopTimeout);
@@ -144,7 +143,7 @@ class BeastServer final : public Server {
 
  private:
   void Accept() {
-    acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+    acceptor_.async_accept([this](error_code error, transport::Socket socket) {
       if (!acceptor_.is_open()) return;
       if (error) return AcceptLater();
       Serve(std::move(socket));
@@ -154,12 +153,12 @@ class BeastServer final : public Server {
 
   void AcceptLater() {
     pause_.expires_after(kAcceptRetryDelay);
-    pause_.async_wait([this](error_code error) {
-      if (!error && acceptor_.is_open()) Accept();
-    });
+    Wait(pause_, Completion([this](error_code error) {
+           if (!error && acceptor_.is_open()) Accept();
+         }));
   }
 
-  void Serve(tcp::socket socket) {
+  void Serve(transport::Socket socket) {
     if (options_.traffic->connections >= options_.limits.connections) {
       ++options_.traffic->turned_away;
       return RefuseConnection(socket);
@@ -190,8 +189,8 @@ class BeastServer final : public Server {
   std::shared_ptr<ServerContext> context_;
   std::uint16_t port_ = 0;
   asio::io_context io_{1};
-  tcp::acceptor acceptor_;
-  asio::steady_timer pause_;
+  transport::Acceptor acceptor_;
+  transport::Timer pause_;
   std::vector<std::weak_ptr<Connection>> connections_;  // may include ended connections
   std::promise<void> finished_;
   std::thread thread_;

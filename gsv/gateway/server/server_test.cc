@@ -45,6 +45,21 @@ TEST_F(ServerTest, AConnectionServesManyRequests) {
   EXPECT_TRUE(connection.IsClosed());
 }
 
+TEST_F(ServerTest, ARequestMayArriveInPieces) {
+  Start();
+  HttpConnection connection(port());
+  const std::string body(50'000, 'x');
+  const std::string text = RequestText(port(), "POST", "/1", "", body);
+  std::size_t start = 0;
+  for (const std::size_t end : {1, 3, 20, 21, 300, 20'000, 49'000}) {
+    connection.Send(text.substr(start, end - start));
+    start = end;
+  }
+  connection.Send(text.substr(start) + RequestText(port(), "GET", "/2"));
+  EXPECT_EQ(connection.Receive()->body, "POST /1 " + body);
+  EXPECT_EQ(connection.Receive()->body, "GET /2 ");
+}
+
 TEST_F(ServerTest, RefusesOtherNamesAndOrigins) {
   Start();
   EXPECT_EQ(Fetch(port(), "GET", "/", "Host: evil.example\r\n").status, 403);

@@ -61,14 +61,14 @@ class TlsTest : public testing::ServerTest {
   };
 
   // Returns the answer's status and body. Throws boost::system::system_error.
-  std::pair<int, std::string> FetchSecurely(const std::string& more_headers = "",
-                                            int version = 0) const {
+  std::pair<int, std::string> FetchSecurely(const std::string& more_headers = "", int version = 0,
+                                            const std::string& body = "") const {
     Client client(port(), folder() + "/ca.pem", "127.0.0.1");
     if (version != 0) SSL_set_max_proto_version(client.stream.native_handle(), version);
     client.stream.handshake(asio::ssl::stream_base::client);
     asio::write(client.stream,
-                asio::buffer(testing::RequestText(port(), "GET", "/hello",
-                                                  more_headers + "Connection: close\r\n")));
+                asio::buffer(testing::RequestText(port(), body.empty() ? "GET" : "POST", "/hello",
+                                                  more_headers + "Connection: close\r\n", body)));
     beast::flat_buffer buffer;
     http::response<http::string_body> response;
     http::read(client.stream, buffer, response);
@@ -147,6 +147,13 @@ TEST_F(TlsTest, SurvivesInvalidData) {
     connection.Send(bytes);
   }
   EXPECT_EQ(FetchSecurely().first, 200);
+}
+
+TEST_F(TlsTest, AnswersOfManyRecordsAreComplete) {
+  StartSecure();
+  std::string body(60'000, ' ');
+  for (std::size_t i = 0; i < body.size(); ++i) body[i] = static_cast<char>('a' + i % 23);
+  EXPECT_EQ(FetchSecurely("", 0, body).second, "POST /hello " + body);
 }
 
 TEST_F(TlsTest, ViewerCanConnectOverTls) {

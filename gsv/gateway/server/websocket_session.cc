@@ -6,12 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
 
 #include "gsv/gateway/server/send_window.h"
+#include "gsv/gateway/transport/websocket.h"
 
 namespace gsv::gateway {
 namespace {
@@ -19,6 +17,7 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using boost::system::error_code;
+using transport::Completion;
 using HttpRequest = beast::http::request<beast::http::string_body>;
 
 // Maximum number of bytes that one read takes from the socket.
@@ -75,9 +74,9 @@ class WebSocketSession final : public Client,
     });
     // 0: the stream has no limit. OnRead() checks the size, and sends the reason for a refusal.
     stream_.read_message_max(0);
-    stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
-      if (!error) self->OnAccepted();
-    });
+    stream_.async_accept(request_, Completion([self = shared_from_this()](error_code error) {
+                           if (!error) self->OnAccepted();
+                         }));
   }
 
   void SendText(SharedBytes text) override { SendControl(std::move(text), true); }
@@ -103,10 +102,10 @@ class WebSocketSession final : public Client,
   }
 
   void Close(CloseCode code, std::string reason) override {
-    boost::asio::post(stream_.get_executor(),
-                      [self = shared_from_this(), code, reason = std::move(reason)] {
-                        self->BeginClose(code, reason);
-                      });
+    transport::Post(stream_.get_executor(),
+                    Completion([self = shared_from_this(), code, reason = std::move(reason)] {
+                      self->BeginClose(code, reason);
+                    }));
   }
 
   void Shutdown() override { BeginClose(CloseCode::kGoingAway, "the server is shutting down"); }
@@ -135,17 +134,18 @@ class WebSocketSession final : public Client,
   void CloseWhenExpired() {
     if (!owner_.principal.expires) return;
     expiry_.expires_at(*owner_.principal.expires);
-    expiry_.async_wait([weak = weak_from_this()](error_code error) {
-      const auto self = weak.lock();
-      if (error || !self) return;
-      self->BeginClose(CloseCode::kPolicyViolation, "your permission has expired; connect again");
-    });
+    Wait(expiry_, Completion([weak = weak_from_this()](error_code error) {
+           const auto self = weak.lock();
+           if (error || !self) return;
+           self->BeginClose(CloseCode::kPolicyViolation,
+                            "your permission has expired; connect again");
+         }));
   }
 
   void Read() {
     stream_.async_read_some(
         buffer_, kReadSize,
-        [self = shared_from_this()](error_code error, std::size_t) { self->OnRead(error); });
+        Completion([self = shared_from_this()](error_code error) { self->OnRead(error); }));
   }
 
   void OnRead(error_code error) {
@@ -181,10 +181,10 @@ class WebSocketSession final : public Client,
   // Starts to write the queue, on this session's thread. Any thread may call it.
   void Wake() {
     if (is_woken_.exchange(true)) return;
-    boost::asio::post(stream_.get_executor(), [self = shared_from_this()] {
-      self->is_woken_ = false;
-      self->WriteNext();
-    });
+    transport::Post(stream_.get_executor(), Completion([self = shared_from_this()] {
+                      self->is_woken_ = false;
+                      self->WriteNext();
+                    }));
   }
 
   void WriteNext() {
@@ -208,18 +208,23 @@ class WebSocketSession final : public Client,
     write_started_ = SendWindow::Clock::now();
     in_flight_ = std::move(message);
     stream_.text(in_flight_.is_text);
-    const std::array<boost::asio::const_buffer, 2> parts{
+    const transport::FrameParts parts{
         boost::asio::buffer(in_flight_.header.bytes.data(), in_flight_.header.size),
         boost::asio::buffer(in_flight_.payload.data(), in_flight_.payload.size())};
-    stream_.async_write(parts, [self = shared_from_this()](error_code error, std::size_t length) {
-      self->context_->traffic->sent_bytes += length;
-      self->is_writing_ = false;
-      const bool is_data = std::exchange(self->in_flight_, {}).is_data;
-      if (error) return self->Leave();
-      self->window_.Sent(length, is_data, self->write_started_);
-      self->PingIfWanted(self->write_started_);
-      self->WriteNext();
-    });
+    stream_.async_write(
+        parts, Completion([self = shared_from_this()](error_code error, std::size_t length) {
+          self->OnWritten(error, length);
+        }));
+  }
+
+  void OnWritten(error_code error, std::size_t length) {
+    context_->traffic->sent_bytes += length;
+    is_writing_ = false;
+    const bool is_data = std::exchange(in_flight_, {}).is_data;
+    if (error) return Leave();
+    window_.Sent(length, is_data, write_started_);
+    PingIfWanted(write_started_);
+    WriteNext();
   }
 
   // Only a pong opens the window again. So call this after each write and each pong: if the window
@@ -235,11 +240,11 @@ class WebSocketSession final : public Client,
     is_pinging_ = true;
     const std::string number = std::to_string(window_.Ping(SendWindow::Clock::now(), started));
     stream_.async_ping(websocket::ping_data(number.data(), number.size()),
-                       [self = shared_from_this()](error_code error) {
+                       Completion([self = shared_from_this()](error_code error) {
                          self->is_pinging_ = false;
                          // If the pong has already arrived, another ping may be due.
                          if (!error) self->PingIfWanted(SendWindow::Clock::now());
-                       });
+                       }));
   }
 
   // Called while the stream reads. The pings that keep the connection alive have no content.
@@ -271,13 +276,13 @@ class WebSocketSession final : public Client,
 
   void LookAgain() {
     slow_look_.expires_after(kSlowCheckInterval);
-    slow_look_.async_wait([weak = weak_from_this()](error_code error) {
-      const auto self = weak.lock();
-      if (error || !self || self->has_left_) return;
-      if (!self->window_.is_pinging()) self->Ping(SendWindow::Clock::now());
-      self->ReportSlowness();
-      if (self->is_slow_) self->LookAgain();
-    });
+    Wait(slow_look_, Completion([weak = weak_from_this()](error_code error) {
+           const auto self = weak.lock();
+           if (error || !self || self->has_left_) return;
+           if (!self->window_.is_pinging()) self->Ping(SendWindow::Clock::now());
+           self->ReportSlowness();
+           if (self->is_slow_) self->LookAgain();
+         }));
   }
 
   void BeginClose(CloseCode code, const std::string& reason) {
@@ -285,16 +290,16 @@ class WebSocketSession final : public Client,
     close_reason_ = Reason(code, reason);
     sends_all_ = code == CloseCode::kGoingAway;
     farewell_.expires_after(kCloseTimeout);
-    farewell_.async_wait([weak = weak_from_this()](error_code error) {
-      const auto self = weak.lock();
-      if (!error && self) self->stream_.next_layer().tcp().close();
-    });
+    Wait(farewell_, Completion([weak = weak_from_this()](error_code error) {
+           const auto self = weak.lock();
+           if (!error && self) self->stream_.next_layer().tcp().close();
+         }));
     WriteNext();
   }
 
   void SendCloseFrame() {
     is_open_ = false;
-    stream_.async_close(*close_reason_, [self = shared_from_this()](error_code) { self->Leave(); });
+    stream_.async_close(*close_reason_, Completion([self = shared_from_this()] { self->Leave(); }));
   }
 
   void Leave() {
@@ -308,9 +313,9 @@ class WebSocketSession final : public Client,
     hub_->Remove(this);
   }
 
-  websocket::stream<transport::ByteStream> stream_;
+  transport::WebSocket stream_;
   bool sends_all_ = false;  // whether data messages are also sent before the connection is closed
-  boost::asio::steady_timer farewell_, expiry_, slow_look_;
+  transport::Timer farewell_, expiry_, slow_look_;
   HttpRequest request_;
   beast::flat_buffer buffer_;
   std::shared_ptr<Hub> hub_;

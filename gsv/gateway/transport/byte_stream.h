@@ -5,44 +5,73 @@
 // Threads  the thread of the executor.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/buffer.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/ssl/stream_base.hpp>
+#include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/ssl/ssl_stream.hpp>
 #include <boost/container/static_vector.hpp>
 
 #include "gsv/gateway/transport/completion.h"
+#include "gsv/gateway/transport/tcp.h"
 
 namespace gsv::gateway::transport {
 
 // The buffers of one write. If a sequence has more than 16 buffers, only the first 16 are written.
-// An HTTP response has about 12.
+// The response to the
+// handshake of a WebSocket has about 12.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
+
+// A connection without TLS, with type-erased handlers. TLS reads and writes one buffer at a time.
+class PlainStream {
+ public:
+  using executor_type = Executor;
+  using lowest_layer_type = Socket;
+
+  explicit PlainStream(boost::asio::io_context& io) : tcp_(io) {}
+  explicit PlainStream(Socket socket) : tcp_(std::move(socket)) {}
+
+  TcpStream& tcp() { return tcp_; }
+  executor_type get_executor() { return tcp_.get_executor(); }
+  lowest_layer_type& lowest_layer() { return tcp_.socket(); }
+
+  // These functions read or write some bytes, at least one, and call `then`.
+  void ReadSome(boost::asio::mutable_buffer into, Completion then);
+  void WriteSome(const Parts& parts, Completion then);
+
+  // Implements the concepts AsyncReadStream and AsyncWriteStream of Boost.Asio.
+  template <typename Handler>
+  void async_read_some(boost::asio::mutable_buffer into, Handler&& handler) {
+    ReadSome(into, Completion(std::forward<Handler>(handler)));
+  }
+  template <typename Handler>
+  void async_write_some(boost::asio::const_buffer part, Handler&& handler) {
+    WriteSome(Parts(1, part), Completion(std::forward<Handler>(handler)));
+  }
+
+ private:
+  TcpStream tcp_;
+};
 
 // A connection with or without TLS.
 class ByteStream {
  public:
-  using executor_type = boost::beast::tcp_stream::executor_type;
+  using executor_type = Executor;
   using error_code = boost::system::error_code;
-  using Tls = boost::beast::ssl_stream<boost::beast::tcp_stream>;
+  using Tls = boost::asio::ssl::stream<PlainStream>;
 
   // Creates a stream that is not connected yet.
   explicit ByteStream(boost::asio::io_context& io) : plain_(std::in_place, io) {}
-  explicit ByteStream(boost::asio::ip::tcp::socket socket)
-      : plain_(std::in_place, std::move(socket)) {}
+  explicit ByteStream(Socket socket) : plain_(std::in_place, std::move(socket)) {}
 
-  // Returns the TCP stream below TLS, to connect, limit and close it.
-  boost::beast::tcp_stream& tcp() { return tls_ ? tls_->next_layer() : *plain_; }
+  // Returns the TCP stream below TLS, to limit and close it.
+  TcpStream& tcp() { return tls_ ? tls_->stream.next_layer().tcp() : plain_->tcp(); }
   executor_type get_executor() { return tcp().get_executor(); }
 
   // Enables TLS. Call Handshake() afterwards. `context` must outlive the stream.
@@ -51,12 +80,14 @@ class ByteStream {
   // `then` gets the number of these bytes that the handshake used.
   void Handshake(boost::asio::ssl::stream_base::handshake_type type,
                  boost::asio::const_buffer already_read, Completion then);
-  // Shuts TLS down. Without TLS, calls then() at once.
+  // Shuts TLS down. Without TLS, only calls `then`.
   void Shutdown(Completion then);
 
   // These functions read or write some bytes, at least one, and call `then`.
   void ReadSome(boost::asio::mutable_buffer into, Completion then);
   void WriteSome(const Parts& parts, Completion then);
+  // Writes all bytes, and calls `then` with their number. The stream must not be moved meanwhile.
+  void Write(const Parts& parts, Completion then);
   // Shuts the connection down after the closing handshake of a WebSocket. Boost.Beast calls this.
   void Teardown(boost::beast::role_type role, Completion then);
 
@@ -84,8 +115,20 @@ class ByteStream {
   friend void beast_close_socket(ByteStream& stream) { stream.tcp().close(); }
 
  private:
-  template <typename Buffers>
+  // A record of TLS has at most this many bytes (RFC 8446, section 5.1).
+  static constexpr std::size_t kTlsRecordBytes = 16u << 10;
+  struct TlsLayer {
+    TlsLayer(PlainStream plain, boost::asio::ssl::context& context)
+        : stream(std::move(plain), context) {}
+    Tls stream;
+    std::array<char, kTlsRecordBytes> record{};  // small parts that are encrypted together
+  };
+
+  // Writes all parts. `written` is the number of bytes that were written before them.
+  void WriteRest(const Parts& parts, std::size_t written, Completion then);
+
   // Returns the first buffer that is not empty.
+  template <typename Buffers>
   static boost::asio::mutable_buffer FirstOf(const Buffers& buffers) {
     const auto end = boost::asio::buffer_sequence_end(buffers);
     for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end; ++part) {
@@ -94,8 +137,8 @@ class ByteStream {
     }
     return {};
   }
-  template <typename Buffers>
   // Returns the buffers that are not empty, at most as many as Parts can have.
+  template <typename Buffers>
   static Parts PartsOf(const Buffers& buffers) {
     Parts parts;
     const auto end = boost::asio::buffer_sequence_end(buffers);
@@ -107,8 +150,8 @@ class ByteStream {
     return parts;
   }
 
-  std::optional<boost::beast::tcp_stream> plain_;  // until StartTls()
-  std::unique_ptr<Tls> tls_;                       // since StartTls(); null for plain TCP
+  std::optional<PlainStream> plain_;  // until StartTls()
+  std::unique_ptr<TlsLayer> tls_;     // since StartTls(); null for plain TCP
 };
 
 }  // namespace gsv::gateway::transport

@@ -5,9 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include <boost/asio/ssl/context.hpp>
-
 #include "gsv/base/error.h"
+
+// Declared here, so that files with an address need not compile Boost.Asio.
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace gsv::gateway::upstream {
 

@@ -3,10 +3,13 @@
 #include <optional>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/span_body.hpp>
+#include <boost/beast/http/string_body.hpp>
 
+#include "gsv/gateway/transport/connector.h"
+#include "gsv/gateway/transport/http_message.h"
 #include "gsv/gateway/upstream/secure.h"
 
 namespace gsv::gateway::upstream {
@@ -14,8 +17,8 @@ namespace {
 
 namespace beast = boost::beast;
 namespace http = beast::http;
-using boost::asio::ip::tcp;
 using boost::system::error_code;
+using transport::Completion;
 
 // Maximum size of a response. A model with all its textures is far smaller.
 constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{512} << 20;
@@ -23,33 +26,36 @@ constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{512} << 20;
 // One request and its response. Each step of the exchange starts the next step.
 class Exchange {
  public:
-  Exchange(const Address& address, const Request& request) : address_(address) {
-    message_.method_string(request.method);
-    message_.target(request.raw_target);
-    message_.version(11);
-    message_.set(http::field::host, address.Authority());
-    message_.set(http::field::user_agent, "gsv");
+  Exchange(const Address& address, const Request& request)
+      : address_(address), body_(request.body) {
+    http::request<http::span_body<const char>> message;
+    message.method_string(request.method);
+    message.target(request.raw_target);
+    message.version(11);
+    message.set(http::field::host, address.Authority());
+    message.set(http::field::user_agent, "gsv");
     if (!request.content_type.empty()) {
-      message_.set(http::field::content_type, request.content_type);
+      message.set(http::field::content_type, request.content_type);
     }
     if (!request.if_none_match.empty()) {
-      message_.set(http::field::if_none_match, request.if_none_match);
+      message.set(http::field::if_none_match, request.if_none_match);
     }
     if (!address.token.empty()) {
-      message_.set(http::field::authorization, "Bearer " + address.token);
+      message.set(http::field::authorization, "Bearer " + address.token);
     }
-    if (!request.viewer.empty()) message_.set("Gsv-Viewer", request.viewer);
-    message_.keep_alive(false);
-    message_.body() = request.body;
-    message_.prepare_payload();
+    if (!request.viewer.empty()) message.set("Gsv-Viewer", request.viewer);
+    message.keep_alive(false);
+    message.body() = {body_.data(), body_.size()};
+    message.prepare_payload();
+    header_ = transport::HeaderText(message.base());
     parser_.body_limit(kMaxBodyBytes);
   }
 
   base::Result<Response> Run(std::chrono::milliseconds limit) {
-    resolver_.async_resolve(address_.host, address_.port,
-                            [this](error_code error, tcp::resolver::results_type results) {
-                              if (!Failed(error)) Connect(results);
-                            });
+    connector_.Connect(stream_, address_.host, address_.port, limit,
+                       Completion([this](error_code error) {
+                         if (!Failed(error)) BeginTls();
+                       }));
     io_.run_for(limit);
     if (is_done_) return Answer();
     if (error_) {
@@ -68,27 +74,22 @@ class Exchange {
     return static_cast<bool>(error);
   }
 
-  void Connect(const tcp::resolver::results_type& results) {
-    stream_.tcp().async_connect(results, [this](error_code error, const tcp::endpoint&) {
-      if (!Failed(error)) BeginTls();
-    });
-  }
-
   void BeginTls() {
-    StartTls(stream_, address_, transport::Completion([this](error_code error) {
+    StartTls(stream_, address_, Completion([this](error_code error) {
                if (!Failed(error)) Write();
              }));
   }
 
   void Write() {
-    http::async_write(stream_, message_, [this](error_code error, std::size_t) {
-      if (!Failed(error)) Read();
-    });
+    stream_.Write({boost::asio::buffer(header_), boost::asio::buffer(body_)},
+                  Completion([this](error_code error) {
+                    if (!Failed(error)) Read();
+                  }));
   }
 
   void Read() {
-    http::async_read(stream_, buffer_, parser_,
-                     [this](error_code error, std::size_t) { is_done_ = !Failed(error); });
+    transport::ReadMessage(stream_, buffer_, parser_,
+                           Completion([this](error_code error) { is_done_ = !Failed(error); }));
   }
 
   Response Answer() {
@@ -111,11 +112,12 @@ class Exchange {
   }
 
   const Address& address_;
-  http::request<http::string_body> message_;
+  std::string header_;
+  const std::string& body_;
   http::response_parser<http::string_body> parser_;
   beast::flat_buffer buffer_;
   boost::asio::io_context io_;
-  tcp::resolver resolver_{io_};
+  transport::Connector connector_{io_};
   transport::ByteStream stream_{io_};
   error_code error_;
   bool is_done_ = false;

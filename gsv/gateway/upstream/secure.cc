@@ -3,7 +3,6 @@
 #include <utility>
 
 #include <boost/asio/ip/address.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/asio/ssl/error.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
 
@@ -22,8 +21,7 @@ bool IsName(const std::string& host) {
 
 void StartTls(transport::ByteStream& stream, const Address& address, transport::Completion then) {
   if (!address.tls) {
-    return boost::asio::post(stream.get_executor(),
-                             [then = std::move(then)]() mutable { then({}); });
+    return Post(stream.get_executor(), std::move(then));
   }
   transport::ByteStream::Tls& tls = stream.StartTls(*address.tls);
   tls.set_verify_mode(ssl::verify_peer);

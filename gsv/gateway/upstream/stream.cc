@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <concepts>
 #include <deque>
 #include <optional>
 #include <utility>
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
 
 #include "gsv/gateway/http/target.h"
+#include "gsv/gateway/transport/connector.h"
+#include "gsv/gateway/transport/websocket.h"
 #include "gsv/gateway/upstream/channel_map.h"
 #include "gsv/gateway/upstream/secure.h"
 
@@ -24,11 +20,11 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using WebSocket = websocket::stream<transport::ByteStream>;
+using transport::Completion;
+using transport::WebSocket;
 
 // Maximum size of a message: enough for an image, or for the list of two thousand channels with
 // their definitions.
@@ -48,14 +44,14 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
 // One attempt to connect, from resolving the name to the end of the connection. Pending operations
 // keep their attempt alive. If the attempt was abandoned meanwhile, their results are ignored.
 struct Attempt {
-  explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
+  explicit Attempt(asio::io_context& io) : connector(io), socket(io) {}
 
   void Abandon() {
-    resolver.cancel();
+    connector.Cancel();
     socket.next_layer().tcp().close();
   }
 
-  tcp::resolver resolver;
+  transport::Connector connector;
   WebSocket socket;
   websocket::response_type answer;  // the answer to the handshake
   beast::flat_buffer incoming;
@@ -83,20 +79,20 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   bool has_ended() const override { return has_ended_; }
 
   void Stop() override {
-    asio::post(io_, [self = shared_from_this()] {
-      self->is_stopped_ = true;
-      self->Disconnect();
-    });
+    transport::Post(io_.get_executor(), Completion([self = shared_from_this()] {
+                      self->is_stopped_ = true;
+                      self->Disconnect();
+                    }));
   }
 
  private:
   // Called from any thread: a client was added or removed, subscribed or unsubscribed.
   void OnDemand() {
     if (is_called_.exchange(true)) return;
-    asio::post(io_, [self = shared_from_this()] {
-      self->is_called_ = false;
-      self->FollowDemand();
-    });
+    transport::Post(io_.get_executor(), Completion([self = shared_from_this()] {
+                      self->is_called_ = false;
+                      self->FollowDemand();
+                    }));
   }
 
   void FollowDemand() {
@@ -111,43 +107,28 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   // Returns a handler for the current attempt. It does nothing if this attempt was abandoned before
   // the handler runs.
-  template <typename Then>
-  auto ForThis(Then then) {
-    return [ self = shared_from_this(), attempt = attempt_, then ]<typename... Results>(
-        error_code error,
-        const Results&... results) requires std::invocable<const Then&, RemoteStream&, error_code,
-                                                           const Results&...> {
-      if (attempt == self->attempt_) then(*self, error, results...);
-    };
+  Completion ForThis(void (*then)(RemoteStream&, error_code)) {
+    return Completion([self = shared_from_this(), attempt = attempt_, then](error_code error) {
+      if (attempt == self->attempt_) then(*self, error);
+    });
   }
 
   void Connect() {
     state_ = State::kConnecting;
     attempt_ = std::make_shared<Attempt>(io_);
-    attempt_->resolver.async_resolve(
-        address_.host, address_.port,
-        ForThis([](RemoteStream& self, error_code error, const tcp::resolver::results_type& found) {
-          if (error) return self.TryAgain(error.message());
-          self.ConnectTo(found);
-        }));
-  }
-
-  void ConnectTo(const tcp::resolver::results_type& found) {
-    auto& tcp_stream = attempt_->socket.next_layer().tcp();
-    tcp_stream.expires_after(kConnectTime);
-    tcp_stream.async_connect(
-        found, ForThis([](RemoteStream& self, error_code error, const tcp::endpoint&) {
-          if (error) return self.TryAgain(error.message());
-          self.BeginTls();
-        }));
+    attempt_->connector.Connect(attempt_->socket.next_layer(), address_.host, address_.port,
+                                kConnectTime, ForThis([](RemoteStream& self, error_code error) {
+                                  if (error) return self.TryAgain(error.message());
+                                  self.BeginTls();
+                                }));
   }
 
   void BeginTls() {
     StartTls(attempt_->socket.next_layer(), address_,
-             transport::Completion(ForThis([](RemoteStream& self, error_code error) {
+             ForThis([](RemoteStream& self, error_code error) {
                if (error) return self.TryAgain(WhyNotConnected(error));
                self.Handshake();
-             })));
+             }));
   }
 
   void Handshake() {
@@ -191,7 +172,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void Read() {
     attempt_->socket.async_read(attempt_->incoming,
-                                ForThis([](RemoteStream& self, error_code error, std::size_t) {
+                                ForThis([](RemoteStream& self, error_code error) {
                                   if (error) return self.TryAgain(self.LastWords(error));
                                   self.OnMessage();
                                 }));
@@ -247,8 +228,8 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void WriteNext() {
     attempt_->socket.text(true);
-    attempt_->socket.async_write(asio::buffer(attempt_->outgoing.front()),
-                                 ForThis([](RemoteStream& self, error_code error, std::size_t) {
+    const transport::FrameParts parts{asio::buffer(attempt_->outgoing.front())};
+    attempt_->socket.async_write(parts, ForThis([](RemoteStream& self, error_code error) {
                                    if (error) return self.TryAgain(error.message());
                                    self.attempt_->outgoing.pop_front();
                                    if (!self.attempt_->outgoing.empty()) self.WriteNext();
@@ -273,11 +254,11 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     state_ = State::kPausing;
     pause_.expires_after(pause_length_);
     pause_length_ = std::min(2 * pause_length_, kMaxPause);
-    pause_.async_wait([self = shared_from_this()](error_code error) {
-      if (error || self->state_ != State::kPausing) return;
-      self->state_ = State::kIdle;
-      self->FollowDemand();
-    });
+    Wait(pause_, Completion([self = shared_from_this()](error_code error) {
+           if (error || self->state_ != State::kPausing) return;
+           self->state_ = State::kIdle;
+           self->FollowDemand();
+         }));
   }
 
   void End() {
@@ -298,7 +279,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   const std::string socket_;
   std::shared_ptr<Hub> hub_;
   std::optional<ChannelMap> channels_;
-  asio::steady_timer pause_;
+  transport::Timer pause_;
   AttemptPointer attempt_;  // null between attempts
   State state_ = State::kIdle;
   milliseconds pause_length_ = kFirstPause;

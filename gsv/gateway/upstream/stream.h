@@ -8,10 +8,12 @@
 #include <memory>
 #include <string>
 
-#include <boost/asio/io_context.hpp>
-
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/upstream/address.h"
+
+namespace boost::asio {
+class io_context;
+}
 
 namespace gsv::gateway::upstream {
 
