@@ -7,8 +7,8 @@ endfunction()
 
 # gsv_precompile(TARGET KIND) gives a target a precompiled header (cmake/precompiled_KIND.h), which
 # is compiled once for all targets of this kind. It contains the headers that nearly every file of the
-# kind includes. KIND is "library", or "test" for test programs. The target links to gsv::base. Other
-# programs have no precompiled header, because it cost more than it saved.
+# kind includes. KIND is "library" (also for behaviours), or "test" for test programs. The target links
+# to gsv::base. Other programs have no precompiled header, because it cost more than it saved.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
