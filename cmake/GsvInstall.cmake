@@ -145,7 +145,7 @@ set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_NAME libgsv-dev)
 set(CPACK_DEBIAN_LIBGSV-DEV_DESCRIPTION "What behaviours and applications for GSV are compiled with")
 set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_DEPENDS
-  "libgsv${GSV_LIBRARY_VERSION} (= ${PROJECT_VERSION}), libexpected-dev, libcli11-dev, libspdlog-dev, libomniorb4-dev, libcos4-dev, omniidl")
+  "libgsv${GSV_LIBRARY_VERSION} (= ${PROJECT_VERSION}), libcli11-dev, libspdlog-dev, libomniorb4-dev, libcos4-dev, omniidl")
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_NAME python3-gsv)
 set(CPACK_DEBIAN_PYTHON3-GSV_DESCRIPTION "Behaviours and applications for GSV in Python")
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_SECTION python)

@@ -267,7 +267,7 @@ class SimulationProxy final : public RemoteSimulation {
     }
     return false;
   }
-  tl::unexpected<base::Error> Lose(const std::string& why) {
+  base::Failure<base::Error> Lose(const std::string& why) {
     lost_ = "the simulation ended with its server: " + why;
     return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
   }
@@ -290,7 +290,8 @@ class BrokerApplication final : public Application {
     auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, preference, 16);
     // kNotFound means that the broker does not know the service type, because no simulator has ever
     // registered with it. So there are no offers.
-    if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
+    if (!offers && offers.error().code == base::ErrorCode::kNotFound)
+      offers = std::vector<broker::FoundOffer>();
     if (!offers) return base::Fail(offers.error());
     base::Error error{
         base::ErrorCode::kNotFound,

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "gsv/base/result.h"
 
 namespace gsv::base {
 
@@ -36,15 +36,15 @@ struct Error {
 };
 
 template <typename T>
-using Result = tl::expected<T, Error>;
+using Result = ResultOf<T, Error>;
 
 using Status = Result<void>;
 
-inline tl::unexpected<Error> Fail(ErrorCode code, std::string message, std::string where = {}) {
-  return tl::unexpected<Error>(Error{code, std::move(message), std::move(where)});
+inline Failure<Error> Fail(ErrorCode code, std::string message, std::string where = {}) {
+  return {{code, std::move(message), std::move(where)}};
 }
 
-inline tl::unexpected<Error> Fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+inline Failure<Error> Fail(Error error) { return {std::move(error)}; }
 
 // A problem that was found while a file was read. Readers collect all problems before they return.
 struct Problem {

@@ -78,7 +78,7 @@ base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& fil
   return results;
 }
 
-tl::unexpected<base::Error> Results::Refused(const base::Error& error) const {
+base::Failure<base::Error> Results::Refused(const base::Error& error) const {
   std::string message = error.message;
   switch (database_.LastCode()) {
     case SQLITE_BUSY:

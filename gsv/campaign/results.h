@@ -89,7 +89,7 @@ class Results {
   // Creates the tables for a campaign, or checks that they belong to it.
   base::Status Begin(const Campaign& campaign);
   // Returns SQLite's error with the name of the file and what to do.
-  tl::unexpected<base::Error> Refused(const base::Error& error) const;
+  base::Failure<base::Error> Refused(const base::Error& error) const;
   base::Status Insert(const std::vector<RunResult>& results);
   base::Status Insert(const std::vector<Attempt>& attempts);
 

@@ -144,7 +144,7 @@ TEST_F(SpoolTest, RunOfSeveralAttemptsCountsOnce) {
   ASSERT_EQ(attempts->size(), 2u);
   EXPECT_EQ((*attempts)[1].started, 105);
   EXPECT_EQ((*attempts)[1].runs, 3u);
-  EXPECT_EQ((*results)->NotPassed(), 2u);
+  EXPECT_EQ(*(*results)->NotPassed(), 2u);
 }
 
 TEST(QueueCostTest, AddsUpWaitsOverheadAndIdleTime) {

@@ -21,7 +21,7 @@ constexpr std::size_t kMaxTypes = 500;         // maximum number of types in a s
 constexpr std::size_t kMaxFields = 1000;       // maximum number of fields of a type
 constexpr std::size_t kMaxValues = 4'000'000;  // maximum number of values in a message
 
-tl::unexpected<base::Error> Bad(std::string message, std::string_view where) {
+base::Failure<base::Error> Bad(std::string message, std::string_view where) {
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
 }
 

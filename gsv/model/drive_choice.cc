@@ -72,7 +72,7 @@ class ChoiceReader {
   }
 
  private:
-  tl::unexpected<base::Error> Refuse(const std::string& why, const std::string& hint = "") const {
+  base::Failure<base::Error> Refuse(const std::string& why, const std::string& hint = "") const {
     return base::Fail(ErrorCode::kInvalidArgument, why + kExpected + hint, text_);
   }
 

@@ -15,7 +15,7 @@ namespace {
 using Message = messages::trajectory_msgs::JointTrajectory;
 using MessagePoint = messages::trajectory_msgs::JointTrajectoryPoint;
 
-tl::unexpected<base::Error> RefuseTrajectory(std::string why) {
+base::Failure<base::Error> RefuseTrajectory(std::string why) {
   return base::Fail(base::ErrorCode::kInvalidArgument, std::move(why));
 }
 

@@ -28,7 +28,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
   auto offers = broker_.Query(type.name, constraint, "first", kOffersConsidered);
   // A broker does not know the service type until the first behaviour is offered. Therefore,
   // kNotFound means that there is no offer.
-  if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
+  if (!offers && offers.error().code == base::ErrorCode::kNotFound)
+    offers = std::vector<broker::FoundOffer>();
   if (!offers) return base::Fail(offers.error());
   base::Error error{base::ErrorCode::kBehaviour,
                     "no offered behaviour matches the constraint: " + constraint +

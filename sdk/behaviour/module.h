@@ -18,7 +18,7 @@ namespace gsv {
 
 // The version of the interface. Increase it with every change of Robot, Behaviour or
 // BehaviourModule.
-inline constexpr int kBehaviourInterface = 5;
+inline constexpr int kBehaviourInterface = 6;
 // Name of the function by which a plug-in returns its BehaviourModule.
 inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 

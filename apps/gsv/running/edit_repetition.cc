@@ -19,7 +19,7 @@ using simulation::Edit;
 using simulation::Phase;
 using simulation::Simulation;
 
-tl::unexpected<base::Error> NotAgain(const std::string& file, const std::string& reason) {
+base::Failure<base::Error> NotAgain(const std::string& file, const std::string& reason) {
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "cannot be simulated again: " + reason + "; replay it instead", file);
 }

@@ -128,14 +128,14 @@ class RunBehaviours {
         return std::make_shared<ros2::NodeBehaviour>(ros2->steps, ros2::kClockPeriod);
       }
       if (ros2) return nullptr;
-      return tl::make_unexpected(
+      return base::Failure{
           FieldError{{base::ErrorCode::kInvalidArgument, "a robot with this behaviour needs --ros2",
                       "--behaviour ros2"},
-                     "behaviour"});
+                     "behaviour"}};
     }
     auto behaviour = Get(robot);
     if (behaviour) return *std::move(behaviour);
-    return tl::make_unexpected(FieldError{behaviour.error(), "behaviour"});
+    return base::Failure{FieldError{behaviour.error(), "behaviour"}};
   }
 
  private:

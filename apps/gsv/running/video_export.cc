@@ -79,7 +79,7 @@ class Exporter {
     return {};
   }
 
-  tl::unexpected<base::Error> NotFinished() const {
+  base::Failure<base::Error> NotFinished() const {
     return Fail(ErrorCode::kUnavailable, "ffmpeg could not write the video; its messages are above",
                 options_.output);
   }

@@ -96,7 +96,8 @@ base::Status ScenarioServers::Refresh() {
                               kMaxScenarioServers);
   // kNotFound means that the broker does not know the service type, because no such server has ever
   // registered with it. So there are no offers.
-  if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
+  if (!offers && offers.error().code == base::ErrorCode::kNotFound)
+    offers = std::vector<broker::FoundOffer>();
   const base::MutexLock lock(mutex_);
   is_refreshing_ = false;
   refreshed_ = Clock::now();

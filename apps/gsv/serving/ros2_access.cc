@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kWatchPeriod{200};
 constexpr const char* kRos2Group = "ROS 2";
 
-tl::unexpected<base::Error> RefuseRos2(const base::Error& error, const char* option) {
+base::Failure<base::Error> RefuseRos2(const base::Error& error, const char* option) {
   return base::Fail(error.code, error.message, option);
 }
 

@@ -17,10 +17,10 @@ using simulation::Simulation;
 constexpr int kPlacesTried = 400;
 
 // Adds the list and the index to the path of the invalid field, as in "robots[1].model".
-tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
+base::Failure<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
   std::string element = std::string(list) + "[" + std::to_string(i) + "]";
   wrong.field = wrong.field.empty() ? element : element + "." + wrong.field;
-  return tl::make_unexpected(std::move(wrong));
+  return base::Failure{std::move(wrong)};
 }
 
 // Returns the n-th place of a spiral about the origin. Adjacent places are about a metre apart.
@@ -132,14 +132,14 @@ class ListPlacing {
   FieldResult<std::vector<PlacedRobot>> Place(const std::vector<scenario::RobotEntry>& entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].model.empty()) {
-        if (auto ok = FindInWorld(entries[i], i); !ok) return tl::make_unexpected(ok.error());
+        if (auto ok = FindInWorld(entries[i], i); !ok) return base::Failure{ok.error()};
         continue;
       }
       auto robot = Specify(simulation_, library_, entries[i], is_avatars_, problems_);
       if (!robot) return WrongIn(list_, i, robot.error());
       (entries[i].start ? with_place_ : without_).push_back({{entries[i], i}, *std::move(robot)});
     }
-    if (auto ok = PlaceTogether(); !ok) return tl::make_unexpected(ok.error());
+    if (auto ok = PlaceTogether(); !ok) return base::Failure{ok.error()};
     int next = 0;
     for (Waiting& each : without_) {
       if (placing_.kind == Placing::Kind::kSpiral) next = 0;
@@ -159,7 +159,7 @@ class ListPlacing {
     RobotSpecification robot;
   };
 
-  tl::expected<void, FieldError> FindInWorld(const scenario::RobotEntry& entry, std::size_t i) {
+  base::ResultOf<void, FieldError> FindInWorld(const scenario::RobotEntry& entry, std::size_t i) {
     if (simulation_.agent(entry.name) != nullptr) {
       of_world_.push_back({entry, i});
       return {};
@@ -170,11 +170,11 @@ class ListPlacing {
                     "name"});
   }
 
-  tl::expected<void, FieldError> PlaceTogether() {
+  base::ResultOf<void, FieldError> PlaceTogether() {
     std::vector<RobotSpecification> robots;
     for (Waiting& each : with_place_) robots.push_back(std::move(each.robot));
     auto names = simulation_.AddRobots(std::move(robots));
-    if (!names) return tl::make_unexpected(BlameFor(names.error()));
+    if (!names) return base::Failure{BlameFor(names.error())};
     for (std::size_t k = 0; k < with_place_.size(); ++k) {
       with_place_[k].placed.entry.name = std::move((*names)[k]);
       placed_.push_back(std::move(with_place_[k].placed));
@@ -187,7 +187,7 @@ class ListPlacing {
   FieldError BlameFor(const base::Error& error) const {
     for (const Waiting& each : with_place_) {
       if (each.placed.entry.name != error.where) continue;
-      return WrongIn(list_, each.placed.index, {error, ""}).value();
+      return WrongIn(list_, each.placed.index, {error, ""}).error;
     }
     return {error, list_};
   }
@@ -217,15 +217,15 @@ FieldResult<Population> Populate(Simulation& simulation, formats::ModelLibrary& 
                                  const Placing& placing) {
   auto robots =
       ListPlacing(simulation, library, "robots", problems, placing).Place(scenario.robots);
-  if (!robots) return tl::make_unexpected(robots.error());
+  if (!robots) return base::Failure{robots.error()};
   auto avatars = ListPlacing(simulation, library, "avatars", problems, {}).Place(scenario.avatars);
-  if (!avatars) return tl::make_unexpected(avatars.error());
+  if (!avatars) return base::Failure{avatars.error()};
   return Population{*std::move(robots), *std::move(avatars)};
 }
 
-tl::expected<void, FieldError> GiveBehaviours(Simulation& simulation,
-                                              const std::vector<PlacedRobot>& robots,
-                                              const BehaviourMaker& make) {
+base::ResultOf<void, FieldError> GiveBehaviours(Simulation& simulation,
+                                                const std::vector<PlacedRobot>& robots,
+                                                const BehaviourMaker& make) {
   for (const PlacedRobot& robot : robots) {
     auto behaviour = make(robot.entry);
     if (!behaviour) return WrongIn("robots", robot.index, behaviour.error());
@@ -242,9 +242,9 @@ FieldResult<std::string> AddOne(Simulation& simulation, formats::ModelLibrary& l
                                 const scenario::RobotEntry& entry, bool is_avatar,
                                 const BehaviourMaker& make, base::Problems& problems) {
   auto robot = Specify(simulation, library, entry, is_avatar, problems);
-  if (!robot) return tl::make_unexpected(robot.error());
+  if (!robot) return base::Failure{robot.error()};
   auto behaviour = make(entry);
-  if (!behaviour) return tl::make_unexpected(behaviour.error());
+  if (!behaviour) return base::Failure{behaviour.error()};
   robot->behaviour = *behaviour;
   scenario::RobotEntry placed = entry;
   base::Status added;

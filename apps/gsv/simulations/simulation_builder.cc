@@ -186,10 +186,10 @@ FieldResult<std::optional<ros2::Options>> SimulationBuilder::Ros2OptionsOf(
 
 FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const SimulationRequest& request) {
   if (const auto ros2 = Ros2OptionsOf(request.scenario); !ros2) {
-    return tl::make_unexpected(ros2.error());
+    return base::Failure{ros2.error()};
   }
   auto world = ReadWorld(request.scenario.world);
-  if (!world) return tl::make_unexpected(world.error());
+  if (!world) return base::Failure{world.error()};
   simulation::Specification specification = SpecificationOf(request.scenario);
   specification.name = "preview";
   // one thread suffices, because the simulation takes no steps
@@ -202,7 +202,7 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
   Preview preview{*simulation, world->warnings};
   base::Problems problems;
   const auto population = Populate(**simulation, host_.library(), request.scenario, problems);
-  if (!population) return tl::make_unexpected(population.error());
+  if (!population) return base::Failure{population.error()};
   AddSentences(problems, preview.warnings);
   return preview;
 }
@@ -210,9 +210,9 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
 FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
     const SimulationRequest& request) {
   const auto ros2 = Ros2OptionsOf(request.scenario);
-  if (!ros2) return tl::make_unexpected(ros2.error());
+  if (!ros2) return base::Failure{ros2.error()};
   auto world = ReadWorld(request.scenario.world);
-  if (!world) return tl::make_unexpected(world.error());
+  if (!world) return base::Failure{world.error()};
   simulation::Specification specification = SpecificationOf(request.scenario);
   auto driven = WithDrives(world->world, request.scenario);
   if (!driven) return WrongField("robots", driven.error());
@@ -223,7 +223,7 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   const std::string name = (*created)->specification().name;
   const auto give_up = [&](FieldError wrong) {
     (void)host_.Remove(name);
-    return tl::make_unexpected(std::move(wrong));
+    return base::Failure{std::move(wrong)};
   };
   const auto population = Populate(**created, host_.library(), request.scenario, problems);
   if (!population) return give_up(population.error());

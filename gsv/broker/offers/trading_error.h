@@ -7,8 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include <tl/expected.hpp>
-
+#include "gsv/base/result.h"
 #include "gsv/broker/language/property.h"
 #include "gsv/broker/offers/import_policies.h"
 #include "gsv/broker/offers/service_type.h"
@@ -99,10 +98,8 @@ struct TradingError {
 };
 
 template <typename T>
-using TradingResult = tl::expected<T, TradingError>;
+using TradingResult = base::ResultOf<T, TradingError>;
 
-inline tl::unexpected<TradingError> Refuse(TradingError error) {
-  return tl::unexpected<TradingError>(std::move(error));
-}
+inline base::Failure<TradingError> Refuse(TradingError error) { return {std::move(error)}; }
 
 }  // namespace gsv::broker

@@ -194,7 +194,9 @@ std::vector<std::string> TypeRepository::List(std::optional<std::uint64_t> since
 }
 
 TradingResult<ServiceType> TypeRepository::Describe(const std::string& name) const {
-  return Find(name).map([](const ServiceType* type) { return *type; });
+  const auto type = Find(name);
+  if (!type) return Refuse(type.error());
+  return **type;
 }
 
 TradingResult<ServiceType> TypeRepository::FullyDescribe(const std::string& name) const {

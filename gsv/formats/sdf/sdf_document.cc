@@ -224,7 +224,7 @@ void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
 }
 
 // Returns an error with the reason why nothing could be read.
-tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesystem::path& source) {
+base::Failure<base::Error> Refusal(const Reading& reading, const std::filesystem::path& source) {
   constexpr auto kBadModel = base::ErrorCode::kBadModel;
   std::string reasons;
   for (const std::string& reason : Reasons().reasons) {

@@ -58,7 +58,7 @@ class ShapeReader {
   }
 
  private:
-  tl::unexpected<base::Error> Refuse(const std::string& reason) const {
+  base::Failure<base::Error> Refuse(const std::string& reason) const {
     return base::Fail(base::ErrorCode::kBadModel, reason, name_.substr(0, kMaxShapeName));
   }
 

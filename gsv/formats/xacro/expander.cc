@@ -9,7 +9,7 @@ constexpr int kMaxSteps = 1'000'000;
 constexpr int kMaxLevels = 500;
 constexpr std::size_t kMaxMessageLength = 600;
 
-tl::unexpected<base::Error> InvalidXacro(const std::string& why) {
+base::Failure<base::Error> InvalidXacro(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 

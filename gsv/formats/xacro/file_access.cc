@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 constexpr int kMaxIncludes = 512;
 constexpr std::size_t kMaxYamlBytes = 4u << 20;
 
-tl::unexpected<base::Error> NoFile(const std::string& why, const std::string& where = {}) {
+base::Failure<base::Error> NoFile(const std::string& why, const std::string& where = {}) {
   return base::Fail(base::ErrorCode::kBadModel, why, where);
 }
 
 // Returns the error for a missing file. All other errors are kBadModel.
-tl::unexpected<base::Error> Missing(const std::string& why) {
+base::Failure<base::Error> Missing(const std::string& why) {
   return base::Fail(base::ErrorCode::kNotFound, why);
 }
 

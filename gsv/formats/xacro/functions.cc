@@ -15,7 +15,7 @@ constexpr std::size_t kMaxResultLength = 1u << 20;
 using Arguments = std::vector<Value>;
 using Function = base::Result<Value> (*)(const Arguments&);
 
-tl::unexpected<base::Error> InvalidCall(const std::string& why) {
+base::Failure<base::Error> InvalidCall(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 

@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t kMaxTextLength = 1u << 20;
 constexpr std::size_t kMaxListLength = 10'000;
 
-tl::unexpected<base::Error> WrongOperand(const std::string& why) {
+base::Failure<base::Error> WrongOperand(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 
-tl::unexpected<base::Error> WrongTypes(const std::string& sign, const Value& a, const Value& b) {
+base::Failure<base::Error> WrongTypes(const std::string& sign, const Value& a, const Value& b) {
   return WrongOperand("\"" + sign + "\" does not take " + TypeName(a) + " and " + TypeName(b));
 }
 

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxSequence = 10'000, kMaxSorted = 1000;
 constexpr int kMaxDecimals = 30;
 constexpr double kMaxFormattedNumber = 1e17;
 
-tl::unexpected<base::Error> InvalidList(const std::string& why) {
+base::Failure<base::Error> InvalidList(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 

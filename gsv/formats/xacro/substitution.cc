@@ -68,7 +68,7 @@ class Substitution {
   }
 
  private:
-  static tl::unexpected<base::Error> Refuse(const std::string& why) {
+  static base::Failure<base::Error> Refuse(const std::string& why) {
     return base::Fail(base::ErrorCode::kBadModel, why);
   }
 

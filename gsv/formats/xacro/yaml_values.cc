@@ -51,7 +51,7 @@ class YamlReader {
     return node.IsScalar() ? Scalar(node) : Value{};
   }
 
-  tl::unexpected<base::Error> Refuse(const std::string& why, const YAML::Mark& mark) const {
+  base::Failure<base::Error> Refuse(const std::string& why, const YAML::Mark& mark) const {
     return base::Fail(base::ErrorCode::kBadModel, why,
                       file_.string() + ":" + std::to_string(mark.line + 1));
   }

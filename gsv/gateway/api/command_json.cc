@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-tl::unexpected<base::Error> Invalid(std::string sentence) {
+base::Failure<base::Error> Invalid(std::string sentence) {
   return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence));
 }
 

@@ -52,8 +52,12 @@ base::Result<SharedBytes> ModelStore::Glb(const std::string& id) {
   }
   const base::MutexLock writing(file->writing);
   if (!file->glb) {
-    file->glb = write_(*model).map(
-        [](std::vector<std::uint8_t> bytes) { return SharedBytes(std::move(bytes)); });
+    auto bytes = write_(*model);
+    if (bytes) {
+      file->glb = SharedBytes(*std::move(bytes));
+    } else {
+      file->glb = base::Fail(std::move(bytes.error()));
+    }
   }
   return *file->glb;
 }

@@ -16,9 +16,9 @@ using ScenarioJson = nlohmann::json;
 constexpr std::size_t kMaxRobots = 1000;
 constexpr double kMaxAngle = 1e3;  // maximum magnitude of an angle in a request, rad
 
-tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
-  return tl::make_unexpected(
-      FieldError{{base::ErrorCode::kInvalidArgument, std::move(sentence)}, std::move(field)});
+base::Failure<FieldError> Refused(std::string field, std::string sentence) {
+  return base::Failure{
+      FieldError{{base::ErrorCode::kInvalidArgument, std::move(sentence)}, std::move(field)}};
 }
 
 FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
@@ -100,24 +100,24 @@ FieldResult<void> RequireModels(const scenario::Scenario& scenario) {
 
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body) {
   auto json = ParseRequestObject(body);
-  if (!json) return tl::make_unexpected(json.error());
+  if (!json) return base::Failure{json.error()};
   const auto record = TakeFlag(*json, "record");
-  if (!record) return tl::make_unexpected(record.error());
-  if (auto ok = RefuseWhatIsNotForViewers(*json); !ok) return tl::make_unexpected(ok.error());
+  if (!record) return base::Failure{record.error()};
+  if (auto ok = RefuseWhatIsNotForViewers(*json); !ok) return base::Failure{ok.error()};
   base::Problems problems;
   auto scenario =
       ValueOrFirstProblem(scenario::ParseScenarioJson(json->dump(), problems), problems);
-  if (!scenario) return tl::make_unexpected(scenario.error());
+  if (!scenario) return base::Failure{scenario.error()};
   if (scenario->world.empty()) return Refused("world", "choose a world");
-  if (auto ok = RequireModels(*scenario); !ok) return tl::make_unexpected(ok.error());
+  if (auto ok = RequireModels(*scenario); !ok) return base::Failure{ok.error()};
   return SimulationRequest{*std::move(scenario), *record};
 }
 
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   auto json = ParseRequestObject(body);
-  if (!json) return tl::make_unexpected(json.error());
+  if (!json) return base::Failure{json.error()};
   const auto is_avatar = TakeFlag(*json, "avatar");
-  if (!is_avatar) return tl::make_unexpected(is_avatar.error());
+  if (!is_avatar) return base::Failure{is_avatar.error()};
   // A robot without a model refers to the robot with that name in the world file. A scenario gives
   // such a robot no pose, but a request may.
   const bool is_of_world = !json->contains("model") && json->contains("name");
@@ -134,15 +134,15 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
 
 FieldResult<Placement> ParsePlace(std::string_view body) {
   auto json = ParseRequestObject(body);
-  if (!json) return tl::make_unexpected(json.error());
+  if (!json) return base::Failure{json.error()};
   const auto roll = TakeAngle(*json, "roll");
-  if (!roll) return tl::make_unexpected(roll.error());
+  if (!roll) return base::Failure{roll.error()};
   const auto pitch = TakeAngle(*json, "pitch");
-  if (!pitch) return tl::make_unexpected(pitch.error());
+  if (!pitch) return base::Failure{pitch.error()};
   base::Problems problems;
   const auto place =
       ValueOrFirstProblem(scenario::ParsePlaceJson(json->dump(), problems), problems);
-  if (!place) return tl::make_unexpected(place.error());
+  if (!place) return base::Failure{place.error()};
   // FromRollPitchYaw() also computes the poses of world files. With any other function, zeros could
   // have another sign, so a world that was saved and read again would have another hash.
   return Placement{
@@ -152,13 +152,13 @@ FieldResult<Placement> ParsePlace(std::string_view body) {
 
 FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {
   auto json = ParseRequestObject(body);
-  if (!json) return tl::make_unexpected(json.error());
+  if (!json) return base::Failure{json.error()};
   ObjectRequest object;
   const std::pair<const char*, std::string*> texts[]{
       {"name", &object.name}, {"model", &object.model}, {"copy_of", &object.copy_of}};
   for (const auto& [name, text] : texts) {
     auto taken = TakeName(*json, name);
-    if (!taken) return tl::make_unexpected(taken.error());
+    if (!taken) return base::Failure{taken.error()};
     *text = *std::move(taken);
   }
   if (object.model.empty() == object.copy_of.empty()) {
@@ -167,7 +167,7 @@ FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {
   }
   if (json->empty()) return object;
   const auto place = ParsePlace(json->dump());
-  if (!place) return tl::make_unexpected(place.error());
+  if (!place) return base::Failure{place.error()};
   object.place = *place;
   return object;
 }

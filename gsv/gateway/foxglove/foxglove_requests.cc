@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-tl::unexpected<base::Error> Malformed(std::string_view expected) {
+base::Failure<base::Error> Malformed(std::string_view expected) {
   return base::Fail(base::ErrorCode::kCorrupt,
                     "a message does not follow the Foxglove protocol: " + std::string(expected));
 }

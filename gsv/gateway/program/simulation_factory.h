@@ -24,9 +24,9 @@ struct FieldError {
   std::string field;  // empty if no single field caused the error
 };
 template <typename T>
-using FieldResult = tl::expected<T, FieldError>;
-inline tl::unexpected<FieldError> WrongField(std::string field, base::Error error) {
-  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
+using FieldResult = base::ResultOf<T, FieldError>;
+inline base::Failure<FieldError> WrongField(std::string field, base::Error error) {
+  return base::Failure{FieldError{std::move(error), std::move(field)}};
 }
 
 // A request to create a simulation.

@@ -28,12 +28,12 @@ class FakeFactory final : public SimulationFactory {
   }
   Ros2Support Ros2() override { return ros2; }
   FieldResult<Preview> Show(const SimulationRequest& request) override {
-    if (refusal) return tl::make_unexpected(*refusal);
+    if (refusal) return base::Failure{*refusal};
     return Preview{std::make_shared<ScriptedSimulation>(request.scenario.world, 2), {"no mesh"}};
   }
   FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) override {
-    if (refusal) return tl::make_unexpected(*refusal);
+    if (refusal) return base::Failure{*refusal};
     auto made = std::make_shared<ScriptedSimulation>(request.scenario.name, 0);
     list_.Add(made);
     return made;
@@ -44,13 +44,13 @@ class FakeFactory final : public SimulationFactory {
   }
   FieldResult<std::string> AddRobot(const std::shared_ptr<simulation::Simulation>&,
                                     const scenario::RobotEntry& robot, bool is_avatar) override {
-    if (refusal) return tl::make_unexpected(*refusal);
+    if (refusal) return base::Failure{*refusal};
     return robot.model + (is_avatar ? "_avatar" : "_robot");
   }
 
   FieldResult<std::string> AddObject(const std::shared_ptr<simulation::Simulation>&,
                                      const ObjectRequest& object) override {
-    if (refusal) return tl::make_unexpected(*refusal);
+    if (refusal) return base::Failure{*refusal};
     asked = object;
     return object.model + object.copy_of;
   }

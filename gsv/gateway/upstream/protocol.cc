@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-tl::unexpected<base::Error> Malformed(const std::string& what) {
+base::Failure<base::Error> Malformed(const std::string& what) {
   return base::Fail(
       base::ErrorCode::kCorrupt,
       "the other gsv server sent a message that does not follow the Foxglove protocol: " + what);

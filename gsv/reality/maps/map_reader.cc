@@ -84,7 +84,7 @@ class PgmReader {
   }
 
  private:
-  tl::unexpected<base::Error> Fail(std::string sentence) const {
+  base::Failure<base::Error> Fail(std::string sentence) const {
     return base::Fail(base::ErrorCode::kBadModel, std::move(sentence), path_.string());
   }
   std::optional<int> Number() {

@@ -15,7 +15,7 @@ using base::Fail;
 
 std::string SystemMessage(int error) { return std::generic_category().message(error); }
 
-tl::unexpected<base::Error> ReadsTooFar(std::string where) {
+base::Failure<base::Error> ReadsTooFar(std::string where) {
   return Fail(ErrorCode::kCorrupt, "the file refers to data beyond its end", std::move(where));
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 using base::ErrorCode;
 
-tl::unexpected<base::Error> Damaged(const MessageBlock& block, const std::string& what) {
+base::Failure<base::Error> Damaged(const MessageBlock& block, const std::string& what) {
   return base::Fail(ErrorCode::kCorrupt, "a chunk is damaged: " + what,
                     "byte " + std::to_string(block.offset));
 }

@@ -228,7 +228,7 @@ void UseEnclave(const std::string& folder, fast::PropertyPolicyQos& policy) {
   }
 }
 
-tl::unexpected<base::Error> NoParticipant(const ParticipantOptions& options) {
+base::Failure<base::Error> NoParticipant(const ParticipantOptions& options) {
   const std::string domain = std::to_string(options.domain);
   if (!options.enclave_folder.empty()) {
     return base::Fail(base::ErrorCode::kUnavailable,
@@ -472,7 +472,7 @@ class FastParticipant final : public Participant {
     return Refusal(topic);
   }
 
-  static tl::unexpected<base::Error> Refusal(const Topic& topic) {
+  static base::Failure<base::Error> Refusal(const Topic& topic) {
     return base::Fail(base::ErrorCode::kUnavailable,
                       "Fast DDS refuses the topic with type " + topic.type, topic.name);
   }

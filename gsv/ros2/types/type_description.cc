@@ -17,7 +17,7 @@ constexpr std::uint8_t kArray = 48, kBoundedSequence = 96, kSequence = 144;
 constexpr std::string_view kSeparator = "\n====";
 constexpr std::string_view kNextType = "MSG: ";
 
-tl::unexpected<base::Error> NoType(std::string message, std::string_view where) {
+base::Failure<base::Error> NoType(std::string message, std::string_view where) {
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
 }
 

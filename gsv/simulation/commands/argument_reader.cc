@@ -142,11 +142,11 @@ class ArgumentReader {
     return found == command_.parameters.end() ? nullptr : &*found;
   }
 
-  tl::unexpected<base::Error> Refuse(std::string sentence) const {
+  base::Failure<base::Error> Refuse(std::string sentence) const {
     return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence),
                       std::string(command_.name));
   }
-  tl::unexpected<base::Error> Unknown(const std::string& name) const {
+  base::Failure<base::Error> Unknown(const std::string& name) const {
     std::string known;
     for (const Parameter& parameter : command_.parameters) {
       known += known.empty() ? "; known: " : ", ";
@@ -155,7 +155,7 @@ class ArgumentReader {
     return Refuse(fmt::format("there is no parameter '{}'{}", name.substr(0, kMaxQuoted),
                               known.empty() ? "; the command takes no parameters" : known));
   }
-  tl::unexpected<base::Error> Wrong(const Parameter& parameter, const std::string& found) const {
+  base::Failure<base::Error> Wrong(const Parameter& parameter, const std::string& found) const {
     return Refuse(
         fmt::format("'{}' must be {}, and {}", parameter.name, DescribeRange(parameter), found));
   }

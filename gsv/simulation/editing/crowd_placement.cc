@@ -127,7 +127,7 @@ class CrowdPlacement {
     return taken;
   }
 
-  tl::unexpected<base::Error> NoRoom(std::size_t member) const {
+  base::Failure<base::Error> NoRoom(std::size_t member) const {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "there is no free place for this pedestrian on its route: use fewer "
                       "pedestrians, or wider goals",

@@ -8,8 +8,8 @@ namespace {
 using scenario::Fault;
 using FaultKind = scenario::Fault::Kind;
 
-tl::unexpected<base::Error> RefuseFault(base::ErrorCode code, const Fault& fault,
-                                        const std::string& message) {
+base::Failure<base::Error> RefuseFault(base::ErrorCode code, const Fault& fault,
+                                       const std::string& message) {
   return base::Fail(code, "cannot apply the fault: " + message, fault.source.text);
 }
 

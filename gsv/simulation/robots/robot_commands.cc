@@ -13,8 +13,8 @@ bool IsMessage(const DeviceAction& action) {
   return action.kind == Kind::kCommand && action.device->SendsMessages();
 }
 
-tl::unexpected<base::Error> RefuseCommand(const MountedSensor& sensor, const std::string& robot,
-                                          std::string sentence) {
+base::Failure<base::Error> RefuseCommand(const MountedSensor& sensor, const std::string& robot,
+                                         std::string sentence) {
   return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence),
                     robot + "/" + sensor.name());
 }

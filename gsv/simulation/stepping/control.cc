@@ -27,7 +27,8 @@ base::Status SteppingSimulation::Start() {
 base::Status SteppingSimulation::Pause() {
   return Perform([this](RunControl& run) GSV_REQUIRES(simulation_mutex) {
     auto change = run.Pause();
-    if (change == RunControl::Change::kPaused) agents_.CallAll("pause", &BehaviourPort::Pause);
+    if (change && *change == RunControl::Change::kPaused)
+      agents_.CallAll("pause", &BehaviourPort::Pause);
     return change;
   });
 }
@@ -35,7 +36,7 @@ base::Status SteppingSimulation::Pause() {
 base::Status SteppingSimulation::Resume() {
   return Perform([this](RunControl& run) GSV_REQUIRES(simulation_mutex) {
     auto change = run.Resume();
-    if (change == RunControl::Change::kResumed) {
+    if (change && *change == RunControl::Change::kResumed) {
       events_.Emit("resumed");
       agents_.CallAll("resume", &BehaviourPort::Resume);
     }

@@ -243,7 +243,7 @@ TEST(RunControl, PausesAtItsInstantEvenIfBehavioursAreStillStarting) {
   ASSERT_EQ(run.RunIfStarted(), Change::kRunning);
   run.BeginStep();
   ASSERT_TRUE(run.Pause());
-  ASSERT_EQ(run.RunUntil(SimTime(1), SimTime(0)), Change::kResumed);
+  ASSERT_EQ(*run.RunUntil(SimTime(1), SimTime(0)), Change::kResumed);
   run.BeginStart();  // starts the behaviour of a robot that was added during the pause
   EXPECT_EQ(run.EndStep(SimTime(1)), Change::kPaused);
   run.EndStart();
