@@ -41,11 +41,18 @@ async function pauseAt(url) {
   assert.equal(answer.status, 200);
 }
 
+// Waits until this page is the only viewer. The page of an earlier test may still be counted. If the
+// number changes while axe-core looks at the page, it compares the old name with the new text.
+async function alone(page) {
+  await page.locator('button[aria-label="Viewers"]').waitFor({ state: "attached" });
+}
+
 // A robot is selected, its sensors are read, and a value is plotted. The simulation is paused,
 // because a changing image keeps a browser without a graphics card busy.
 async function openFilled(url) {
   const { page } = await openPage(browser, url);
   await waitUntilDrawn(page);
+  await alone(page);
   await page.locator("[data-robot]").first().click();
   // The browser stores the layout: an earlier test may have left another panel in front.
   await page.getByRole("tab", { name: "Inspector", exact: true }).click();
@@ -94,6 +101,7 @@ for (const [size, width, height] of [
     const { page } = await openPage(browser, live.url);
     await page.setViewportSize({ width, height });
     await waitUntilDrawn(page);
+    await alone(page);
     await openPanel(page, "Teleoperation");
     await page.getByText("No robot can be driven").waitFor();
     await openPanel(page, "Plots");
