@@ -33,7 +33,9 @@ class ResultOf {
 
   ResultOf() requires std::default_initializable<T> : value_(), has_value_(true) {}
   template <typename U = T>
-  requires std::convertible_to<U, T> ResultOf(U&& value)
+  requires(!std::same_as<std::remove_cvref_t<U>, ResultOf> &&
+           !std::same_as<std::remove_cvref_t<U>, Failure<E>> && std::convertible_to<U, T>)
+      ResultOf(U&& value)
       : value_(std::forward<U>(value)), has_value_(true) {}
   ResultOf(Failure<E> failure) : error_(std::move(failure.error)), has_value_(false) {}
   ResultOf(ResultOf&& other) noexcept : has_value_(other.has_value_) {

@@ -128,14 +128,13 @@ class RunBehaviours {
         return std::make_shared<ros2::NodeBehaviour>(ros2->steps, ros2::kClockPeriod);
       }
       if (ros2) return nullptr;
-      return base::Failure{
-          FieldError{{base::ErrorCode::kInvalidArgument, "a robot with this behaviour needs --ros2",
-                      "--behaviour ros2"},
-                     "behaviour"}};
+      return gateway::WrongField("behaviour",
+                                 {base::ErrorCode::kInvalidArgument,
+                                  "a robot with this behaviour needs --ros2", "--behaviour ros2"});
     }
     auto behaviour = Get(robot);
     if (behaviour) return *std::move(behaviour);
-    return base::Failure{FieldError{behaviour.error(), "behaviour"}};
+    return gateway::WrongField("behaviour", behaviour.error());
   }
 
  private:

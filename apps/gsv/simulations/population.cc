@@ -159,7 +159,7 @@ class ListPlacing {
     RobotSpecification robot;
   };
 
-  base::ResultOf<void, FieldError> FindInWorld(const scenario::RobotEntry& entry, std::size_t i) {
+  FieldResult<void> FindInWorld(const scenario::RobotEntry& entry, std::size_t i) {
     if (simulation_.agent(entry.name) != nullptr) {
       of_world_.push_back({entry, i});
       return {};
@@ -170,7 +170,7 @@ class ListPlacing {
                     "name"});
   }
 
-  base::ResultOf<void, FieldError> PlaceTogether() {
+  FieldResult<void> PlaceTogether() {
     std::vector<RobotSpecification> robots;
     for (Waiting& each : with_place_) robots.push_back(std::move(each.robot));
     auto names = simulation_.AddRobots(std::move(robots));
@@ -223,9 +223,8 @@ FieldResult<Population> Populate(Simulation& simulation, formats::ModelLibrary& 
   return Population{*std::move(robots), *std::move(avatars)};
 }
 
-base::ResultOf<void, FieldError> GiveBehaviours(Simulation& simulation,
-                                                const std::vector<PlacedRobot>& robots,
-                                                const BehaviourMaker& make) {
+FieldResult<void> GiveBehaviours(Simulation& simulation, const std::vector<PlacedRobot>& robots,
+                                 const BehaviourMaker& make) {
   for (const PlacedRobot& robot : robots) {
     auto behaviour = make(robot.entry);
     if (!behaviour) return WrongIn("robots", robot.index, behaviour.error());

@@ -52,9 +52,9 @@ using BehaviourMaker = std::function<FieldResult<std::shared_ptr<simulation::Beh
     const scenario::RobotEntry&)>;
 
 // Makes the behaviours of the robots, and sets them in the simulation.
-base::ResultOf<void, FieldError> GiveBehaviours(simulation::Simulation& simulation,
-                                                const std::vector<PlacedRobot>& robots,
-                                                const BehaviourMaker& make);
+FieldResult<void> GiveBehaviours(simulation::Simulation& simulation,
+                                 const std::vector<PlacedRobot>& robots,
+                                 const BehaviourMaker& make);
 
 // Returns the model that a robot has in the simulation's world file, even if the robot was removed.
 // Returns null if the world has no model with that name.

@@ -17,8 +17,7 @@ constexpr std::size_t kMaxRobots = 1000;
 constexpr double kMaxAngle = 1e3;  // maximum magnitude of an angle in a request, rad
 
 base::Failure<FieldError> Refused(std::string field, std::string sentence) {
-  return base::Failure{
-      FieldError{{base::ErrorCode::kInvalidArgument, std::move(sentence)}, std::move(field)}};
+  return WrongField(std::move(field), {base::ErrorCode::kInvalidArgument, std::move(sentence)});
 }
 
 FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {

@@ -24,8 +24,7 @@
 namespace gsv::gateway::transport {
 
 // The buffers of one write. If a sequence has more than 16 buffers, only the first 16 are written.
-// The response to the
-// handshake of a WebSocket has about 12.
+// The response to the handshake of a WebSocket has about 12.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
 // A connection without TLS, with type-erased handlers. TLS reads and writes one buffer at a time.
