@@ -31,14 +31,18 @@ BehaviourServant::~BehaviourServant() {
 void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) {
   const base::MutexLock lock(mutex_);
   EndRun();
+  behaviour_.reset();
   robot_ = orb::ValueOrThrow(RemoteRobot::Connect(agent_name, hardware));
+  std::unique_ptr<Behaviour> behaviour;
+  base::Status initialised;
   try {
-    behaviour_ = factory_();
-    orb::ValueOrThrow(behaviour_->Init(*robot_));
+    behaviour = factory_();
+    initialised = behaviour->Init(*robot_);
   } catch (const std::exception& exception) {
-    behaviour_.reset();
     throw sba::Failed((std::string("the behaviour threw in Init: ") + exception.what()).c_str());
   }
+  orb::ValueOrThrow(std::move(initialised));
+  behaviour_ = std::move(behaviour);
 }
 
 void BehaviourServant::start() {

@@ -24,9 +24,10 @@ Failure(E) -> Failure<E>;
 [[noreturn]] inline void ThrowNoValue() { throw std::logic_error("a Result has no value"); }
 
 // Either a T or an E. `*result` and `result->` require that there is a value, and error() requires
-// that there is none. They do not check it.
+// that there is none. They do not check it. A caller that ignores the error says so with (void), and
+// why.
 template <typename T, typename E>
-class ResultOf {
+class [[nodiscard]] ResultOf {
  public:
   using value_type = T;
   using error_type = E;
@@ -95,7 +96,7 @@ class ResultOf {
 
 // Success, or an error.
 template <typename E>
-class ResultOf<void, E> {
+class [[nodiscard]] ResultOf<void, E> {
  public:
   using value_type = void;
   using error_type = E;

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -115,8 +116,14 @@ TEST_F(CampaignTest, SecondDriverContinuesTheRunsAndEachRunCountsOnce) {
   }
   const auto results = Results::OpenToAdd(file(), *campaign);
   ASSERT_TRUE(results);
-  ASSERT_TRUE(EngineThatExecutes(executed, 1000).Run(**results));
+  Progress last_reported;
+  LocalEngine engine = EngineThatExecutes(executed, 1000);
+  engine.report = [&](const Progress& progress) { last_reported = progress; };
+  ASSERT_TRUE(engine.Run(**results));
   for (const auto& times : executed) EXPECT_EQ(times, 1);
+  EXPECT_EQ(*(*results)->NotPassed(), 100u);
+  EXPECT_EQ(last_reported.done, 300u);
+  EXPECT_EQ(last_reported.not_passed, 100u);  // includes the runs of the first driver
   ASSERT_TRUE((*results)->Add({RunResult{5, "error"}}));
   const auto all = (*results)->All();
   ASSERT_TRUE(all);
@@ -135,6 +142,23 @@ TEST_F(CampaignTest, ResultsOfAnotherCampaignAreNotChanged) {
   std::ofstream(file()) << "no database, but long enough to be executed for one, if nobody looked";
   EXPECT_FALSE(Results::Open(file()));
   EXPECT_EQ(Results::Open(file() + "x").error().code, base::ErrorCode::kNotFound);
+}
+
+TEST_F(CampaignTest, DatabaseOfAnotherProgramIsNotChanged) {
+  const auto campaign = Read("scenario: s.yaml\nparameters: {seed: [1, 2]}");
+  ASSERT_TRUE(campaign);
+  const auto content = [&] {
+    std::ostringstream bytes;
+    bytes << std::ifstream(file(), std::ios::binary).rdbuf();
+    return bytes.str();
+  };
+  ASSERT_TRUE(broker::Database::Open(file())->Run("CREATE TABLE songs (title TEXT)"));
+  const std::string before = content();
+  const auto refused = Results::OpenToAdd(file(), *campaign);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_THAT(refused.error().Sentence(), HasSubstr("is the database of another program"));
+  EXPECT_EQ(content(), before);
 }
 
 TEST_F(CampaignTest, LockedOrIncompleteResultsFileLosesNoResults) {

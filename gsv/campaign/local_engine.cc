@@ -65,11 +65,13 @@ base::Status LocalEngine::Run(Results& results) const {
   if (!planned) return base::Fail(planned.error());
   const auto done = results.DoneRuns();
   if (!done) return base::Fail(done.error());
+  const auto not_passed = results.NotPassed();
+  if (!not_passed) return base::Fail(not_passed.error());
   std::vector<std::int64_t> left;
   for (std::int64_t run = 0; run < *planned; ++run) {
     if (!done->contains(run)) left.push_back(run);
   }
-  return Execute(std::move(left), {static_cast<std::size_t>(*planned), done->size()},
+  return Execute(std::move(left), {static_cast<std::size_t>(*planned), done->size(), *not_passed},
                  [&](const std::vector<RunResult>& more) { return results.Add(more); });
 }
 

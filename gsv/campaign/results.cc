@@ -99,6 +99,14 @@ base::Failure<base::Error> Results::Refused(const base::Error& error) const {
 
 base::Status Results::Begin(const Campaign& campaign) {
   if (auto ok = database_.Run(kBusyTimeout); !ok) return Refused(ok.error());
+  const auto foreign =
+      database_.Ask("SELECT COUNT(*) > 0 AND SUM(name = 'campaign') = 0 FROM sqlite_schema");
+  if (!foreign) return Refused(foreign.error());
+  if (*foreign == "1") {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "is the database of another program; choose another file with --results",
+                      file_);
+  }
   if (auto ok = database_.Run(kSettings); !ok) return Refused(ok.error());
   if (auto ok = database_.Run(kTables); !ok) return Refused(ok.error());
   nlohmann::ordered_json paths = nlohmann::ordered_json::array();

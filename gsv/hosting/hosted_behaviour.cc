@@ -64,11 +64,11 @@ void HostedBehaviour::EndTurn(simulation::Turn& turn) {
   turn.Fail(failure_.cause);
 }
 
-// No lock is needed: these pointers do not change while the simulation runs turns of behaviours.
+// robot_ and controller_ need no lock: they do not change while the simulation runs turns of behaviours.
 void HostedBehaviour::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS {
   __builtin_prefetch(robot_.get());
   __builtin_prefetch(controller_);
-  __builtin_prefetch(sweeps_);
+  __builtin_prefetch(sweeps_.load(std::memory_order_relaxed));
 }
 
 void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
@@ -86,7 +86,7 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
     }
   }
   robot_->SetTurn(nullptr);
-  sweeps_ = robot_->sweeps();
+  sweeps_.store(robot_->sweeps(), std::memory_order_relaxed);
 }
 
 // The result is constructed in place: a copy would have to wait until the processor has written the

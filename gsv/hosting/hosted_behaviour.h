@@ -52,8 +52,9 @@ class alignas(64) HostedBehaviour final : public simulation::LocalBehaviour {
   std::atomic<simulation::ClockId> clock_ = 0;
   // The started behaviour if it is a Controller that needs no fibre; else null.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
-  std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);   // the instant of a controller's next turn
-  const void* sweeps_ GSV_GUARDED_BY(mutex_) = nullptr;  // see LocalRobot::sweeps()
+  std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // the instant of a controller's next turn
+  // See LocalRobot::sweeps(). PrefetchTurn() reads it during turns of other threads.
+  std::atomic<const void*> sweeps_ = nullptr;
   // The fibre of a started behaviour; null if controller_ is set.
   std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
 

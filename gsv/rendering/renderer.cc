@@ -146,7 +146,7 @@ class Renderer::RenderThread {
     std::unique_ptr<BatchRenderer> renderer;
     if (options_.back_end != BackEnd::kRasteriser) {
       Result<std::unique_ptr<EglContext>> created = EglContext::Create(egl);
-      if (!created && egl.software) {
+      if (!created && !(automatic && raster::CanRasterise())) {
         started.set_value(Fail(created.error()));
         return;
       }

@@ -22,6 +22,18 @@ std::string PlaceOf(const broker::BehaviourOffer& offer) {
 
 }  // namespace
 
+// A behaviour, and the program that has it.
+struct BrokerBehaviours::CountedBehaviour {
+  CountedBehaviour(sba::AgentBehaviour_ptr of, BehaviourIdentity identity,
+                   PortableServer::POA_ptr poa, std::shared_ptr<const StopTimeout> stop_timeout,
+                   std::shared_ptr<const Program> its_program)
+      : program(std::move(its_program)),
+        behaviour(of, std::move(identity), poa, std::move(stop_timeout)) {}
+
+  const std::shared_ptr<const Program> program;
+  RemoteBehaviour behaviour;
+};
+
 base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const std::string& constraint) {
   const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
@@ -40,8 +52,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const base::MutexLock lock(mutex_);
     base::Sort(*offers, [this](const auto& a, const auto& b) {
       mutex_.AssertHeld();
-      return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
-             robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
+      return RobotsAt(PlaceOf(broker::BehaviourOfferFrom(a.properties))) <
+             RobotsAt(PlaceOf(broker::BehaviourOfferFrom(b.properties)));
     });
   }
   for (const broker::FoundOffer& offer : *offers) {
@@ -49,7 +61,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
     orb::LimitCalls(offer.object, kCreateTimeout);
     // the robot is counted before the call, so that concurrent calls choose other programs
-    CountRobot(identity.place, +1);
+    auto program = ProgramAt(identity.place);
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =
           sba::AgentBehaviourFactory::_narrow(offer.object);
@@ -57,18 +69,29 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
       return sba::AgentBehaviour_var(factory->create());
     });
     if (behaviour) {
-      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_, stop_timeout_);
+      const auto counted = std::make_shared<CountedBehaviour>(*behaviour, identity, poa_,
+                                                              stop_timeout_, std::move(program));
+      return std::shared_ptr<simulation::BehaviourPort>(counted, &counted->behaviour);
     }
-    CountRobot(identity.place, -1);
     error = behaviour.error();
     error.code = base::ErrorCode::kBehaviour;
   }
   return base::Fail(std::move(error));
 }
 
-void BrokerBehaviours::CountRobot(const std::string& place, int change) {
+std::shared_ptr<const BrokerBehaviours::Program> BrokerBehaviours::ProgramAt(
+    const std::string& place) {
   const base::MutexLock lock(mutex_);
-  robots_of_[place] += change;
+  std::erase_if(programs_, [](const auto& program) { return program.second.expired(); });
+  std::weak_ptr<const Program>& known = programs_[place];
+  std::shared_ptr<const Program> program = known.lock();
+  if (program == nullptr) known = program = std::make_shared<const Program>();
+  return program;
+}
+
+long BrokerBehaviours::RobotsAt(const std::string& place) const {
+  const auto program = programs_.find(place);
+  return program == programs_.end() ? 0 : program->second.use_count();
 }
 
 }  // namespace gsv::services

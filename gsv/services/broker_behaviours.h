@@ -1,8 +1,9 @@
 // Creates behaviours from the broker's offers. Several programs may match; the program that has
-// got the fewest robots from this object so far is chosen.
+// the fewest robots of this object is chosen.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 
 #include "gsv/base/mutex.h"
@@ -23,15 +24,19 @@ class BrokerBehaviours final : public BehaviourSource {
   std::shared_ptr<StopTimeout> stop_timeout() const override { return stop_timeout_; }
 
  private:
-  // Adds `change` to the number of robots that the program at `place` has got.
-  void CountRobot(const std::string& place, int change);
+  // A program that has robots of this object. Each of them owns a reference to it.
+  struct Program {};
+  struct CountedBehaviour;
+
+  std::shared_ptr<const Program> ProgramAt(const std::string& place);
+  // Returns the number of robots that the program at `place` has.
+  long RobotsAt(const std::string& place) const GSV_REQUIRES(mutex_);
 
   broker::BrokerClient& broker_;
   PortableServer::POA_var poa_;
   const std::shared_ptr<StopTimeout> stop_timeout_ = std::make_shared<StopTimeout>();
   base::Mutex mutex_;
-  // number of robots that a program has got so far, by "host:pid"
-  std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, std::weak_ptr<const Program>> programs_ GSV_GUARDED_BY(mutex_);  // by place
 };
 
 }  // namespace gsv::services

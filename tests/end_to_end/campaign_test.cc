@@ -114,6 +114,19 @@ TEST_F(CampaignCommand, OptionsWithoutEffectAreRefused) {
   }
   const std::string slurm = folder_.Write("slurm.yaml", "scenario: s.yaml\nengine: slurm\n");
   EXPECT_EQ(RunProgram("gsv", {"campaign", "run", slurm, "--jobs", "1"}).ending, "exit code 2");
+  const std::pair<const char*, Strings> for_other_engines[] = {
+      {"--poll: has no effect on runs on this machine", {"--poll", "3"}},
+      {"--no-wait: has no effect on runs on this machine", {"--no-wait"}},
+      {"--runs-per-task: has no effect on runs on this machine", {"--runs-per-task", "5"}},
+      {"--host: has no effect on runs on this machine", {"--host", "localhost"}},
+      {"--host: has no effect on runs as Slurm job arrays",
+       {"--engine", "slurm", "--host", "localhost"}},
+      {"--no-wait: has no effect on runs of a share", {"--shard", "1/2", "--no-wait"}}};
+  for (const auto& [sentence, arguments] : for_other_engines) {
+    const Outcome run = Campaign("run", arguments);
+    EXPECT_EQ(run.ending, "exit code 2") << sentence;
+    EXPECT_THAT(run.err, HasSubstr(sentence));
+  }
   const std::pair<const char*, Strings> with_shard[] = {
       {"--broker", {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService"}},
       {"--broker", {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService", "--servers", "TRUE"}},

@@ -70,7 +70,10 @@ int ExecuteShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>&
   const auto earlier = spool.Collect(attempt.share);
   if (!earlier) return PrintError(earlier.error());
   std::set<std::int64_t> done;
-  for (const RunResult& result : *earlier) done.insert(result.run);
+  std::size_t not_passed = 0;
+  for (const RunResult& result : *earlier) {
+    if (done.insert(result.run).second) not_passed += result.status != "passed";
+  }
   std::vector<std::int64_t> left;
   for (const std::int64_t run : runs) {
     if (!done.contains(run)) left.push_back(run);
@@ -100,11 +103,11 @@ int ExecuteShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>&
     if (!ok) written = ok;
     return result;
   };
-  const auto ended =
-      engine.Execute(left, {runs.size(), done.size()}, [&](const std::vector<RunResult>&) {
-        const base::MutexLock lock(mutex);
-        return written;
-      });
+  const auto ended = engine.Execute(left, {runs.size(), done.size(), not_passed},
+                                    [&](const std::vector<RunResult>&) {
+                                      const base::MutexLock lock(mutex);
+                                      return written;
+                                    });
   const base::MutexLock lock(mutex);
   if (!ended) return PrintError(ended.error());
   if (!written) return PrintError(written.error());

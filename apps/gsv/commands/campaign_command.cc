@@ -82,6 +82,29 @@ int PrintStatus(campaign::Results& results, bool json) {
   return by_status["passed"] == all->size() ? kOk : kAssertionFailed;
 }
 
+// Returns where the campaign's runs are executed, in words.
+std::string PlaceOfRuns(const CampaignArguments& arguments, const EngineOptions& options) {
+  if (!arguments.shard.empty()) return "of a share";
+  if (!options.broker.empty()) return "on the servers of a broker";
+  return options.engine.type->help;
+}
+
+// Returns the first option of the command line that has no effect on this engine, or "".
+std::string OptionOfAnotherEngine(const CampaignArguments& arguments, const EngineOptions& options,
+                                  bool is_queued) {
+  const auto& own = options.engine.type->options;
+  for (const auto& [flag, values] : arguments.engine.options) {
+    const bool is_own = is_queued && std::any_of(own.begin(), own.end(), [&](const auto& option) {
+                          return option.flag == flag;
+                        });
+    if (!values.empty() && !is_own) return flag;
+  }
+  if (is_queued) return "";
+  if (arguments.engine.runs_per_task > 0) return "--runs-per-task";
+  if (options.poll > 0) return "--poll";
+  return options.waits ? "" : "--no-wait";
+}
+
 int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   Campaign campaign;
   EngineOptions options = arguments.options;
@@ -96,6 +119,12 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
                        "the engine " + options.engine.type->name +
                            " determines how many runs are executed in parallel; remove the option",
                        fmt::format("--jobs {}", options.jobs)});
+  }
+  if (const auto option = OptionOfAnotherEngine(arguments, options, is_queued); !option.empty()) {
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "has no effect on runs " + PlaceOfRuns(arguments, options) +
+                           "; remove the option, or choose its engine with --engine",
+                       option});
   }
   const std::string file = ResultsFile(arguments);
   if (!arguments.shard.empty()) {

@@ -231,6 +231,14 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "several instances have this name; give one as HOST:PID", selection.server);
   }
+  if (!is_named) {
+    for (const Instance& instance : RunningInstances()) {  // the newest one is first
+      const std::string pid = std::to_string(instance.pid);
+      const auto newest = std::find_if(found.begin(), found.end(),
+                                       [&](const auto& server) { return server.pid == pid; });
+      if (newest != found.end()) return std::move(*newest);
+    }
+  }
   return std::move(found.front());
 }
 

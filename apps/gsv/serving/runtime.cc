@@ -256,7 +256,9 @@ Runtime::~Runtime() {
   if (host_ != nullptr) {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
-  if (recordings_ != nullptr) recordings_->StopAll();
+  if (recordings_ != nullptr) {
+    if (const auto ok = recordings_->StopAll(); !ok) spdlog::error("{}", ok.error().Sentence());
+  }
   lost_.reset();  // from here on no simulation is reported as lost
   if (service_.in() != nullptr) service_->Close();
   if (host_ != nullptr) {

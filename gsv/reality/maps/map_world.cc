@@ -174,13 +174,15 @@ base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
                                       const SliceOptions& options) {
   const auto snapshot = std::make_shared<const world::Snapshot>(WithoutRobots(world));
   const geometry::Bounds extent = Extent(snapshot);
-  if (!(extent.min.x <= extent.max.x) || extent.max.z < options.height) {
+  const auto nothing_there = [&] {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       fmt::format("there is nothing in the world at a height of {} m; choose "
                                   "another height with --height",
                                   options.height),
                       world.source);
-  }
+  };
+  const bool reaches = extent.min.z <= options.height && options.height <= extent.max.z;
+  if (!(extent.min.x <= extent.max.x) || !reaches) return nothing_there();
   OccupancyMap map;
   map.resolution = options.resolution;
   map.origin_x = std::floor((extent.min.x - options.margin) / map.resolution) * map.resolution;
@@ -199,6 +201,7 @@ base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
   sensing::RaySceneCache cache;
   const auto scene = cache.At(snapshot);
   Slicer(*scene, map, options.height).Run();
+  if (std::count(map.cells.begin(), map.cells.end(), Cell::kOccupied) == 0) return nothing_there();
   return map;
 }
 

@@ -118,8 +118,10 @@ TEST_F(OccupancyMapTest, IsRecoveredFromTheWorldThatItMakes) {
     }
   }
   EXPECT_EQ(occupied, 8);
-  EXPECT_THAT(MapOfWorld(*world, {0.5, 3, 0.5}).error().Sentence(),
-              HasSubstr("there is nothing in the world at a height of 3 m"));
+  for (const char* height : {"3", "-1"}) {  // above and below the walls
+    EXPECT_THAT(MapOfWorld(*world, {0.5, std::atof(height), 0.5}).error().Sentence(),
+                HasSubstr(std::string("there is nothing in the world at a height of ") + height));
+  }
   EXPECT_THAT(MapOfWorld(*world, {1e-4, 0.2, 0.5}).error().Sentence(),
               HasSubstr("choose a coarser --resolution"));
 }

@@ -80,35 +80,35 @@ void McapFileWriter::WriteRecord(const Record& record) {
   WriteRaw(bytes);
 }
 
-base::Status McapFileWriter::AddSchema(SchemaRecord schema) {
+const base::Status& McapFileWriter::AddSchema(SchemaRecord schema) {
   WriteRecord(schema);
   if (status_) schemas_[schema.id] = std::move(schema);
   return status_;
 }
 
-base::Status McapFileWriter::AddChannel(ChannelRecord channel) {
+const base::Status& McapFileWriter::AddChannel(ChannelRecord channel) {
   WriteRecord(channel);
   if (status_) channels_[channel.id] = std::move(channel);
   return status_;
 }
 
-base::Status McapFileWriter::Write(const MessageRecord& message) {
+const base::Status& McapFileWriter::Write(const MessageRecord& message) {
   GSV_CHECK(!closed_);
   if (!status_) return status_;
   chunk_.Add(message);
   return chunk_.size() >= options_.chunk_size ? CloseChunk() : status_;
 }
 
-base::Status McapFileWriter::CloseChunk() {
+const base::Status& McapFileWriter::CloseChunk() {
   return !status_ || chunk_.empty() ? status_ : Write(chunk_.Take(position_));
 }
 
-base::Status McapFileWriter::WriteChunk(std::span<const std::byte> records) {
+const base::Status& McapFileWriter::WriteChunk(std::span<const std::byte> records) {
   GSV_CHECK(!closed_);
   return CloseChunk() ? Write(chunk_.ChunkOf(records, position_)) : status_;
 }
 
-base::Status McapFileWriter::Write(const ChunkBuilder::Chunk& chunk) {
+const base::Status& McapFileWriter::Write(const ChunkBuilder::Chunk& chunk) {
   const ChunkIndexRecord& index = chunk.index;
   WriteRaw(chunk.bytes);
   if (!status_) return status_;
@@ -126,7 +126,7 @@ base::Status McapFileWriter::Write(const ChunkBuilder::Chunk& chunk) {
   return status_;
 }
 
-base::Status McapFileWriter::Attach(const AttachmentRecord& attachment) {
+const base::Status& McapFileWriter::Attach(const AttachmentRecord& attachment) {
   AttachmentIndexRecord index{.offset = position_,
                               .log_time = attachment.log_time,
                               .create_time = attachment.create_time,
@@ -139,7 +139,7 @@ base::Status McapFileWriter::Attach(const AttachmentRecord& attachment) {
   return status_;
 }
 
-base::Status McapFileWriter::AddMetadata(const MetadataRecord& metadata) {
+const base::Status& McapFileWriter::AddMetadata(const MetadataRecord& metadata) {
   MetadataIndexRecord index{.offset = position_, .name = metadata.name};
   WriteRecord(metadata);
   index.length = position_ - index.offset;
@@ -147,12 +147,12 @@ base::Status McapFileWriter::AddMetadata(const MetadataRecord& metadata) {
   return status_;
 }
 
-base::Status McapFileWriter::Flush() {
+const base::Status& McapFileWriter::Flush() {
   if (CloseChunk()) status_ = sink_.Sync();
   return status_;
 }
 
-base::Status McapFileWriter::Close() {
+const base::Status& McapFileWriter::Close() {
   if (closed_) return status_;
   CloseChunk();
   closed_ = true;

@@ -31,31 +31,31 @@ class McapFileWriter {
   // Writes the start of the file. `sink` must outlive the writer.
   McapFileWriter(ByteSink& sink, FileOptions options);
 
-  base::Status AddSchema(SchemaRecord schema);
+  const base::Status& AddSchema(SchemaRecord schema);
   // Adds a channel. Its schema must have been added before.
-  base::Status AddChannel(ChannelRecord channel);
+  const base::Status& AddChannel(ChannelRecord channel);
   // Writes a message. Its channel must have been added before.
-  base::Status Write(const MessageRecord& message);
+  const base::Status& Write(const MessageRecord& message);
   // Writes the current chunk, and then a chunk of `records`, which contains complete records of
   // messages. This saves the copy that Write() makes.
-  base::Status WriteChunk(std::span<const std::byte> records);
+  const base::Status& WriteChunk(std::span<const std::byte> records);
   // Writes an attachment.
-  base::Status Attach(const AttachmentRecord& attachment);
-  base::Status AddMetadata(const MetadataRecord& metadata);
+  const base::Status& Attach(const AttachmentRecord& attachment);
+  const base::Status& AddMetadata(const MetadataRecord& metadata);
 
   // Writes the current chunk, unless it is empty. The chunk then survives a crash of this process.
-  base::Status CloseChunk();
+  const base::Status& CloseChunk();
   // Writes the current chunk, and returns when it survives a loss of power.
-  base::Status Flush();
+  const base::Status& Flush();
   // Writes the current chunk and the summary. No other call may follow.
-  base::Status Close();
+  const base::Status& Close();
 
   const base::Status& status() const { return status_; }
   std::uint64_t bytes_written() const { return position_; }
 
  private:
   // Writes a chunk, and adds it to the summary.
-  base::Status Write(const ChunkBuilder::Chunk& chunk);
+  const base::Status& Write(const ChunkBuilder::Chunk& chunk);
   // Writes bytes to the sink, and updates position_ and crc_.
   void WriteRaw(std::span<const std::byte> bytes);
   template <typename Record>

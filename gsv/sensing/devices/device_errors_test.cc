@@ -286,6 +286,13 @@ TEST_F(DeviceErrors, OdometryErrorsAccumulateOverTheDistance) {
   EXPECT_WITHIN(read[0], radius * std::sin(turn), 0.02, "m");
   EXPECT_WITHIN(read[1], radius * (1 - std::cos(turn)), 0.02, "m");
   EXPECT_WITHIN(read[2], turn, 1e-9, "rad");
+  // Velocities have the scale of the way, whatever their direction.
+  world::BodyState& base = snapshot_->state.bodies[body];
+  base.odometry.linear = 2, base.odometry.angular = 3, base.drive.actual.lateral = 4;
+  const std::vector<double> moving = Read(*odometer, 90);
+  EXPECT_WITHIN(moving[3], 1.1 * 2, 1e-12, "m/s");
+  EXPECT_WITHIN(moving[4], 0.9 * 3, 1e-12, "rad/s");
+  EXPECT_WITHIN(moving[5], 1.1 * 4, 1e-12, "m/s");
   EXPECT_FALSE(odometer->device()->Check({}));
   EXPECT_EQ(Create("odometry", {})->device(), nullptr);
 }

@@ -55,6 +55,14 @@ class SensorTypesTest : public ::testing::Test {
     snapshot_->layout = layout;
   }
 
+  // Replaces the model of the robot. Its joints are then at their start.
+  void ReplaceModel(std::shared_ptr<const model::Model> model) {
+    auto bodies = snapshot_->layout->bodies;
+    bodies[body_].model = std::move(model);
+    snapshot_->layout = world::MakeLayout(1, std::move(bodies), world_);
+    snapshot_->state = world::InitialState(*snapshot_->layout);
+  }
+
   world::BodyState& body() { return snapshot_->state.bodies[body_]; }
   world::Acceleration& acceleration() { return snapshot_->accelerations[body_]; }
 
@@ -130,6 +138,49 @@ TEST_F(SensorTypesTest, ImuOnATurretReadsItsTurningRate) {
   // The turret does not rotate in the world, because the base rotates in the opposite direction.
   body().angular_velocity = {0, 0, -2};
   ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8}, kImu);
+}
+
+TEST_F(SensorTypesTest, ImuOnAJointReadsTheAccelerationOfTheJoint) {
+  auto description = DescriptionOf("imu");
+  description.link = 1;
+  snapshot_->joint_accelerations = {3};
+  ExpectValues(Sample(description), {0, 0, 0, 0, 3 * 0.2, 9.8}, kImu);
+}
+
+TEST_F(SensorTypesTest, ImuOnAScrewJointTurnsAndSlides) {
+  auto screw = std::make_shared<model::Model>(*snapshot_->layout->bodies[body_].model);
+  screw->joints[0].kind = model::JointKind::kScrew;
+  screw->joints[0].thread_pitch = 0.05;
+  ReplaceModel(screw);
+  auto description = DescriptionOf("imu");
+  description.link = 1;
+  snapshot_->state.joint_velocities[0] = 2;
+  snapshot_->joint_accelerations = {3};
+  // It turns about the z axis, and slides along it by 0.05 m for each radian.
+  ExpectValues(Sample(description), {0, 0, 2, -4 * 0.2, 3 * 0.2, 9.8 + 0.05 * 3}, kImu);
+  description.type = "altimeter";
+  ExpectValues(Sample(description), {0, 2 * 0.05});
+}
+
+TEST_F(SensorTypesTest, ImuOnABallJointTurnsAboutAllAxes) {
+  auto ball = std::make_shared<model::Model>(*snapshot_->layout->bodies[body_].model);
+  ball->links.resize(4);
+  ball->joints.resize(3, ball->joints[0]);
+  for (int i = 0; i < 3; ++i) {
+    model::Joint& joint = ball->joints[static_cast<std::size_t>(i)];
+    joint.name = "ball" + std::to_string(i);
+    joint.kind = model::JointKind::kBall;
+    joint.parent = i, joint.child = i + 1;
+    joint.axis = {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+  }
+  ReplaceModel(ball);
+  auto description = DescriptionOf("imu");
+  description.link = 3;
+  // The values of a ball joint are its angular velocity w. The sensor is at r = (0.2, 0, 0.3), so its
+  // centripetal acceleration is w × (w × r) = w (w · r) - r (w · w), with w · r = 1.1 and w · w = 14.
+  snapshot_->state.joint_velocities = {1, 2, 3};
+  ExpectValues(Sample(description), {1, 2, 3, 1.1 - 14 * 0.2, 2 * 1.1, 9.8 + 3 * 1.1 - 14 * 0.3},
+               kImu);
 }
 
 TEST_F(SensorTypesTest, ImuReadsItsOrientationIfEnabled) {

@@ -10,12 +10,6 @@ using geometry::Pose;
 using geometry::Vector3;
 using model::JointKind;
 
-void MoveTo(const Vector3& to, LinkMotion& motion) {
-  motion.acceleration = motion.AccelerationOf(to);
-  motion.velocity += Cross(motion.angular_velocity, to - motion.place);
-  motion.place = to;
-}
-
 // Moves `motion`, which is at a joint, to the link below the joint. `rate` and `acceleration` are
 // along or about `axis`. `around` is the angular velocity of the link above the joint.
 void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& around, double rate,
@@ -55,16 +49,18 @@ class MotionReader {
     motions_.assign(poses_.size(), base);
   }
 
-  std::vector<LinkMotion> Read() && {
+  const LinkMotion& Read(int link) {
     std::vector<int> chain;  // a link and the links above it whose motion is not known yet
-    for (std::size_t link = 0; link < motions_.size(); ++link) {
-      chain.clear();
-      for (int at = static_cast<int>(link); at >= 0 && !is_known_[static_cast<std::size_t>(at)];) {
-        chain.push_back(at);
-        at = above_[static_cast<std::size_t>(at)] < 0 ? -1 : JointAbove(at).parent;
-      }
-      for (std::size_t level = chain.size(); level-- > 0;) ReadLink(chain[level]);
+    for (int at = link; at >= 0 && !is_known_[static_cast<std::size_t>(at)];) {
+      chain.push_back(at);
+      at = above_[static_cast<std::size_t>(at)] < 0 ? -1 : JointAbove(at).parent;
     }
+    for (std::size_t level = chain.size(); level-- > 0;) ReadLink(chain[level]);
+    return motions_[static_cast<std::size_t>(link)];
+  }
+
+  std::vector<LinkMotion> ReadAll() && {
+    for (std::size_t link = 0; link < motions_.size(); ++link) Read(static_cast<int>(link));
     return std::move(motions_);
   }
 
@@ -107,7 +103,7 @@ class MotionReader {
       if (joint.parent >= 0) motion = motions_[static_cast<std::size_t>(joint.parent)];
       const Pose world_from_joint =
           poses_[of] * Inverse(model().links[of].model_from_link) * joint.model_from_joint;
-      MoveTo(world_from_joint.position, motion);
+      motion.MoveTo(world_from_joint.position);
       if (joint.kind == JointKind::kBall) {
         if (BallsAbove(link) % 3 == 0) PassBall(above, world_from_joint, motion);
       } else if (joint.kind != JointKind::kFixed) {
@@ -142,12 +138,22 @@ class MotionReader {
 
 Vector3 LinkMotion::AccelerationOf(const Vector3& point) const {
   const Vector3 arm = point - place;
-  return acceleration + Cross(angular_acceleration, arm) +
-         Cross(angular_velocity, Cross(angular_velocity, arm));
+  return acceleration +
+         (Cross(angular_acceleration, arm) + Cross(angular_velocity, Cross(angular_velocity, arm)));
+}
+
+void LinkMotion::MoveTo(const Vector3& point) {
+  acceleration = AccelerationOf(point);
+  velocity += Cross(angular_velocity, point - place);
+  place = point;
+}
+
+LinkMotion MotionOfLink(const world::Snapshot& snapshot, int body, int link) {
+  return MotionReader(snapshot, body).Read(link);
 }
 
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body) {
-  return MotionReader(snapshot, body).Read();
+  return MotionReader(snapshot, body).ReadAll();
 }
 
 }  // namespace gsv::sensing

@@ -20,9 +20,14 @@ struct LinkMotion {
 
   // Returns the acceleration of another point of the link.
   geometry::Vector3 AccelerationOf(const geometry::Vector3& point) const;
+  // Changes `place` to another point of the link, and `velocity` and `acceleration` to its motion.
+  void MoveTo(const geometry::Vector3& point);
 };
 
-// Returns the motions in the order of the model's links.
+// Returns the motion of a link of a body.
+LinkMotion MotionOfLink(const world::Snapshot& snapshot, int body, int link);
+
+// Returns the motions of all links in the order of the model's links.
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body);
 
 }  // namespace gsv::sensing

@@ -39,13 +39,16 @@ class VelocityNoise {
       : linear_(ReadNoise(reader, "linear.noise", 1e3)),
         angular_(ReadNoise(reader, "angular.noise", 1e3)) {}
 
-  // Returns the reading for the position `place`.
+  // Returns the reading for the position `place`. The true velocities are multiplied by the scales.
   readings::Odometry Read(const Sampling& sampling, const model::SensorDescription& description,
-                          const geometry::PlanarPosition& place, double linear,
-                          double angular) const {
+                          const geometry::PlanarPosition& place, double linear_scale = 1,
+                          double angular_scale = 1) const {
     const NoisyReading noisy(sampling, description);
+    const world::BodyState& body = sampling.snapshot()->state.bodies[sampling.body()];
+    const double linear = linear_scale * body.odometry.linear,
+                 angular = angular_scale * body.odometry.angular;
     // The lateral velocity of a base that cannot move sideways is 0, and gets no noise.
-    const double lateral = sampling.snapshot()->state.bodies[sampling.body()].drive.actual.lateral;
+    const double lateral = linear_scale * body.drive.actual.lateral;
     return {.x = place.x,
             .y = place.y,
             .yaw = std::atan2(place.sine, place.cosine),
@@ -66,8 +69,7 @@ class Odometer final : public SensorOf<readings::Odometry, OdometryMessage> {
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const world::Odometry& odometry = sampling.snapshot()->state.bodies[sampling.body()].odometry;
     Reading reading = sampling.Stamped();
-    Fill(noise_.Read(sampling, description(), odometry.place, odometry.linear, odometry.angular),
-         reading);
+    Fill(noise_.Read(sampling, description(), odometry.place), reading);
     return reading;
   }
 
@@ -103,8 +105,7 @@ class DriftingOdometer final : public SensorOf<readings::Odometry, OdometryMessa
         state != nullptr ? state->EstimateAt(*sampling.snapshot(), sampling.body(), sampling.seed())
                          : odometry.place;
     Reading reading = sampling.Stamped();
-    Fill(noise_.Read(sampling, description(), place, drift_.linear_scale * odometry.linear,
-                     drift_.angular_scale * odometry.angular),
+    Fill(noise_.Read(sampling, description(), place, drift_.linear_scale, drift_.angular_scale),
          reading);
     return reading;
   }

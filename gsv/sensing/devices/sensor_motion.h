@@ -1,10 +1,8 @@
 // Computes the pose, velocity and acceleration of a sensor in the world.
 //
 // Frames     world axes.
-// Exactness  velocities are exact at the sampled instant, and include the motion of the joints. The
-//            acceleration is the mean acceleration of the robot's body over the last step. It is
-//            transferred to the sensor's position with the centripetal terms of body and joints.
-//            The acceleration of joints is ignored.
+// Exactness  velocities are exact at the sampled instant. Accelerations of the body and of the joints
+//            are means over the last step. Both include the motion of the joints (link_motion.h).
 #pragma once
 
 #include "gsv/sensing/sensor.h"
