@@ -20,15 +20,14 @@ class ActuatorState : public DeviceState {
   void AddToHash(base::Hash& hash) const final;
 
  protected:
-  // AddToHash() adds the command and then these values. They are the grasp of a gripper. Other
-  // types of actuators add the default values. A type that added nothing would change the hashes of
-  // existing recordings.
-  struct GraspForHash {
-    double opening_before = 0;  // see GripperState
-    Grasp grasp;
-    double width = 0;  // width of the grasped body, m
-  };
-  virtual GraspForHash grasp_for_hash() const { return {}; }
+  // AddToHash() adds the command and then calls this function. A type with more state overrides it,
+  // and adds this state. By default, it adds the grasp of a gripper that never had a body: if it added
+  // nothing, the hashes of existing recordings would change.
+  virtual void AddRestToHash(base::Hash& hash) const { AddGraspToHash(0, {}, 0, hash); }
+  // `opening_before` is the opening of the gripper before its command, and `width` the width of the
+  // grasped body, in m.
+  static void AddGraspToHash(double opening_before, const Grasp& grasp, double width,
+                             base::Hash& hash);
 
  private:
   const FollowedCommand followed_;  // the command that the actuator applies

@@ -53,6 +53,24 @@ TEST(DeviceHash, DependsOnEachFieldOfACommand) {
   }
 }
 
+TEST(DeviceHash, DependsOnTheOwnValuesOfAnActuatorType) {
+  class Winch final : public ActuatorState {
+   public:
+    explicit Winch(double length) : ActuatorState({"robot", "winch", 0, {}}, {}), length_(length) {}
+
+   private:
+    void AddRestToHash(base::Hash& hash) const override { hash.Add(length_); }
+    const double length_;
+  };
+  const auto hash_of = [](double length) {
+    base::Hash hash;
+    AddToHash({std::make_shared<const Winch>(length)}, hash);
+    return hash.Digest();
+  };
+  EXPECT_EQ(hash_of(1), hash_of(1));
+  EXPECT_NE(hash_of(1), hash_of(2));
+}
+
 // Recordings contain hashes, so the order in which fields are hashed is part of their format.
 TEST(DeviceHash, IncludesDevicesWithoutACommand) {
   base::Hash hash, expected;

@@ -92,9 +92,9 @@ double GripperState::OpeningAt(base::SimTime now) const {
   return hold_ ? std::max(opening, hold_->width) : opening;
 }
 
-world::ActuatorState::GraspForHash GripperState::grasp_for_hash() const {
-  if (!hold_) return {opening_before_, {}, 0};
-  return {opening_before_, hold_->grasp, hold_->width};
+void GripperState::AddRestToHash(base::Hash& hash) const {
+  AddGraspToHash(opening_before_, hold_ ? hold_->grasp : world::Grasp(), hold_ ? hold_->width : 0,
+                 hash);
 }
 
 world::DeviceStatePtr GripperState::BeforeStep(world::DeviceStep& step) const {

@@ -64,7 +64,7 @@ class GripperState final : public world::ActuatorState {
                  world::State& state) const override;
 
  private:
-  GraspForHash grasp_for_hash() const override;
+  void AddRestToHash(base::Hash& hash) const override;
   // Sets the finger joints of a robot with planar kinematics.
   void MoveFingers(const world::Body& robot, base::SimTime time, world::State& state) const;
   // Sets the pose and velocity of the attached body.
