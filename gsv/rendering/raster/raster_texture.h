@@ -75,12 +75,13 @@ Texels<F> SampleLevels(const RasterTexture& texture, typename Lanes<F>::Ints lev
   const auto stride = FromTable<F>(texture.stride, levels);
   const auto at = FromTable<F>(texture.first, levels) + y * stride + x;
   const std::uint32_t* texels = texture.texels.data();
-  const auto [t00, t10] = GatherPairs(texels, at);
-  const auto [t01, t11] = GatherPairs(texels, at + stride);
+  const auto upper = GatherPairs(texels, at), lower = GatherPairs(texels, at + stride);
   const auto channel = [&]<int K>(std::integral_constant<int, K>) {
-    const F v00 = ToFloat(Byte<K>(t00)), v01 = ToFloat(Byte<K>(t01));
-    const F top = Fma(ToFloat(Byte<K>(t10)) - v00, fx, v00);
-    const F bottom = Fma(ToFloat(Byte<K>(t11)) - v01, fx, v01);
+    const auto along_x = [&](const auto& pair) {
+      const F left = ToFloat(Byte<K>(pair.first));
+      return Fma(ToFloat(Byte<K>(pair.second)) - left, fx, left);
+    };
+    const F top = along_x(upper), bottom = along_x(lower);
     return Fma(bottom - top, fy, top) * Splat<F>(1 / 255.0f);
   };
   return {channel(std::integral_constant<int, 0>()), channel(std::integral_constant<int, 1>()),
