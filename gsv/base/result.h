@@ -24,8 +24,7 @@ Failure(E) -> Failure<E>;
 [[noreturn]] inline void ThrowNoValue() { throw std::logic_error("a Result has no value"); }
 
 // Either a T or an E. `*result` and `result->` require that there is a value, and error() requires
-// that there is none. They do not check it. A caller that ignores the error says so with (void), and
-// why.
+// that there is none. They do not check it. A caller that ignores an error says so with (void).
 template <typename T, typename E>
 class [[nodiscard]] ResultOf {
  public:

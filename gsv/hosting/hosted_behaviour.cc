@@ -64,7 +64,8 @@ void HostedBehaviour::EndTurn(simulation::Turn& turn) {
   turn.Fail(failure_.cause);
 }
 
-// robot_ and controller_ need no lock: they do not change while the simulation runs turns of behaviours.
+// robot_ and controller_ need no lock: they do not change while the simulation runs turns of
+// behaviours.
 void HostedBehaviour::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS {
   __builtin_prefetch(robot_.get());
   __builtin_prefetch(controller_);

@@ -1,5 +1,6 @@
 #include "gsv/sensing/devices/link_motion.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gsv::sensing {
@@ -25,6 +26,21 @@ void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& ar
   motion.acceleration += travel * (acceleration * axis + 2 * rate * Cross(around, axis));
 }
 
+// Returns the motion of the links above all joints, at the origin of the model.
+LinkMotion MotionOfBase(const world::Snapshot& snapshot, int body) {
+  const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
+  LinkMotion base;
+  base.place = state.world_from_model.position;
+  base.velocity = state.linear_velocity;
+  base.angular_velocity = state.angular_velocity;
+  if (!snapshot.accelerations.empty()) {
+    const world::Acceleration& mean = snapshot.accelerations[static_cast<std::size_t>(body)];
+    base.acceleration = mean.linear;
+    base.angular_acceleration = mean.angular;
+  }
+  return base;
+}
+
 class MotionReader {
  public:
   MotionReader(const world::Snapshot& snapshot, int body)
@@ -36,17 +52,7 @@ class MotionReader {
     for (std::size_t j = 0; j < model().joints.size(); ++j) {
       above_[static_cast<std::size_t>(model().joints[j].child)] = static_cast<int>(j);
     }
-    const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
-    LinkMotion base;
-    base.place = state.world_from_model.position;
-    base.velocity = state.linear_velocity;
-    base.angular_velocity = state.angular_velocity;
-    if (!snapshot.accelerations.empty()) {
-      const world::Acceleration& mean = snapshot.accelerations[static_cast<std::size_t>(body)];
-      base.acceleration = mean.linear;
-      base.angular_acceleration = mean.angular;
-    }
-    motions_.assign(poses_.size(), base);
+    motions_.assign(poses_.size(), MotionOfBase(snapshot, body));
   }
 
   const LinkMotion& Read(int link) {
@@ -149,7 +155,13 @@ void LinkMotion::MoveTo(const Vector3& point) {
 }
 
 LinkMotion MotionOfLink(const world::Snapshot& snapshot, int body, int link) {
-  return MotionReader(snapshot, body).Read(link);
+  const auto& joints = snapshot.layout->bodies[static_cast<std::size_t>(body)].model->joints;
+  const bool is_below_a_joint = std::any_of(
+      joints.begin(), joints.end(), [&](const model::Joint& joint) { return joint.child == link; });
+  if (is_below_a_joint) return MotionReader(snapshot, body).Read(link);
+  LinkMotion motion = MotionOfBase(snapshot, body);  // without the poses of all links
+  motion.world_from_link = world::LinkPose(snapshot, body, link);
+  return motion;
 }
 
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body) {
