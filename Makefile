@@ -9,7 +9,7 @@
 #                  (a quarter of an hour), a campaign of 500 runs on a Slurm cluster of one machine,
 #                  and a viewer whose tab is suspended for three minutes. Also tests the packages on
 #                  a bare Debian, which needs root and debootstrap
-#   make bench     runs all benches (half an hour; run no other programs meanwhile), prints a table
+#   make bench     runs all benches (10 to 30 minutes; run no other programs meanwhile), prints a table
 #                  and writes build/release/bench.json. BENCH_ARGS="--quick --rows crowd,lidar" runs
 #                  some of them for a short time. With "--against BUILD2", it measures each row
 #                  also with the build BUILD2 of another version. bench/all lists its options
