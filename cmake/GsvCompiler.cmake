@@ -35,7 +35,7 @@ if(GSV_SANITIZE)
   add_compile_definitions(GSV_SANITIZED)  # gsv/base/sanitizer.h
   add_compile_options(-fsanitize=${GSV_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${GSV_SANITIZE})
-  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  if(GSV_SANITIZE MATCHES undefined)
     # This check needs variables of libraries that are loaded late (gsv_late_library()).
     add_compile_options(-fno-sanitize=vptr)
   endif()
