@@ -28,6 +28,11 @@
 #include <variant>
 #include <vector>
 
+#ifndef __OPTIMIZE__
+// GCC 12 does not undo fmt's pragma of -Og when it loads a precompiled header, and then takes
+// functions of <emmintrin.h> that need optimisation.
+#define FMT_GCC_PRAGMA(arg)
+#endif
 #include <fmt/format.h>
 
 #include "gsv/base/json_templates.h"  // includes <nlohmann/json.hpp>, and must be the first to do so
