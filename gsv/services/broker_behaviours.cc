@@ -48,14 +48,19 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
                         " (see `gsv offers`; start the behaviour program with --broker " +
                         broker_.reference() + ")",
                     broker_.reference()};
+  // Counted before the sort, because other threads may end robots during it.
+  std::map<std::string, long> robots_at;
   {
     const base::MutexLock lock(mutex_);
-    base::Sort(*offers, [this](const auto& a, const auto& b) {
-      mutex_.AssertHeld();
-      return RobotsAt(PlaceOf(broker::BehaviourOfferFrom(a.properties))) <
-             RobotsAt(PlaceOf(broker::BehaviourOfferFrom(b.properties)));
-    });
+    for (const broker::FoundOffer& offer : *offers) {
+      const std::string place = PlaceOf(broker::BehaviourOfferFrom(offer.properties));
+      robots_at.try_emplace(place, RobotsAt(place));
+    }
   }
+  base::Sort(*offers, [&](const auto& a, const auto& b) {
+    return robots_at[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
+           robots_at[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
+  });
   for (const broker::FoundOffer& offer : *offers) {
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};

@@ -121,9 +121,12 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
                        fmt::format("--jobs {}", options.jobs)});
   }
   if (const auto option = OptionOfAnotherEngine(arguments, options, is_queued); !option.empty()) {
+    // --engine excludes --shard and --broker.
+    const bool may_choose = arguments.shard.empty() && options.broker.empty();
     return PrintError({base::ErrorCode::kInvalidArgument,
                        "has no effect on runs " + PlaceOfRuns(arguments, options) +
-                           "; remove the option, or choose its engine with --engine",
+                           "; remove the option" +
+                           (may_choose ? ", or choose its engine with --engine" : ""),
                        option});
   }
   const std::string file = ResultsFile(arguments);

@@ -99,12 +99,18 @@ std::vector<std::string> BrokersOfInstances() {
   return brokers;
 }
 
-void KeepThoseOfTheNewestInstance(std::vector<FoundSimulation>& simulations) {
+const RemoteServer& ServerOf(const RemoteServer& server) { return server; }
+const RemoteServer& ServerOf(const FoundSimulation& simulation) { return simulation.server; }
+
+// Keeps the servers or simulations of this user's newest instance that has any of them. If no
+// instance of this user has any, all are kept.
+template <typename Found>
+void KeepThoseOfTheNewestInstance(std::vector<Found>& found) {
   for (const Instance& instance : RunningInstances()) {
     const std::string pid = std::to_string(instance.pid);
-    const auto is_elsewhere = [&](const FoundSimulation& one) { return one.server.pid != pid; };
-    if (std::all_of(simulations.begin(), simulations.end(), is_elsewhere)) continue;
-    std::erase_if(simulations, is_elsewhere);
+    const auto is_elsewhere = [&](const Found& one) { return ServerOf(one).pid != pid; };
+    if (std::all_of(found.begin(), found.end(), is_elsewhere)) continue;
+    std::erase_if(found, is_elsewhere);
     return;
   }
 }
@@ -231,14 +237,7 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "several instances have this name; give one as HOST:PID", selection.server);
   }
-  if (!is_named) {
-    for (const Instance& instance : RunningInstances()) {  // the newest one is first
-      const std::string pid = std::to_string(instance.pid);
-      const auto newest = std::find_if(found.begin(), found.end(),
-                                       [&](const auto& server) { return server.pid == pid; });
-      if (newest != found.end()) return std::move(*newest);
-    }
-  }
+  if (!is_named) KeepThoseOfTheNewestInstance(found);
   return std::move(found.front());
 }
 
