@@ -189,6 +189,7 @@ test("if the worker ends, the page decodes the messages", async () => {
   await page.getByRole("button", { name: "Resume", exact: true }).click();
   await decodesMore(page, "image");
   await decoders(page)[0].evaluate(() => close());
+  await imageChanges(page); // may show an image that the worker has decoded before its end
   await imageChanges(page);
   const decoded = await page.evaluate(() => window.testDecoded);
   await imageChanges(page);

@@ -97,6 +97,17 @@ test("a worker that does not answer counts as lost", async () => {
   expect(worker.isTerminated).toBe(true);
 });
 
+test("an answer counts that came while the page was busy for longer than it waits", async () => {
+  vi.useFakeTimers();
+  const { decoder, worker } = started();
+  const points = decoder.decode(CLOUD_CHANNEL, LARGE(), "points", false);
+  vi.advanceTimersToNextTimer(); // a late timer runs before the answer is taken
+  worker.answer({ count: 1 });
+  expect(await points).toEqual({ count: 1 });
+  await vi.runAllTimersAsync();
+  expect(worker.isTerminated).toBe(false);
+});
+
 test("closing ends the worker, and a later message starts another one", () => {
   const { decoder, worker, start } = started();
   decoder.close();

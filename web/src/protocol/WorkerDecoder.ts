@@ -7,7 +7,11 @@ import type { Channel } from "./MessageDecoder";
 import { MessageDecoders } from "./MessageDecoder";
 
 const SMALLEST_BYTES = 16 << 10; // smallest message that is decoded in the worker
-const LONGEST_MS = 10_000; // after this time without an answer, the worker counts as lost
+
+// The worker counts as lost if a message has no answer after two waits of this length. A page that
+// was busy or asleep sees the first wait end late. The second one gives it time to take an answer
+// that came meanwhile.
+const WAIT_MS = 5_000;
 
 // The messages between the page and the worker.
 export interface DecodeRequest {
@@ -76,9 +80,14 @@ export class WorkerDecoder {
     const number = this.nextNumber++;
     const request: DecodeRequest = { number, channel, payload, form };
     return new Promise((resolve, reject) => {
-      this.questions.set(number, { resolve, reject, timer: setTimeout(() => this.end("lost"), LONGEST_MS) });
+      const question: Question = { resolve, reject, timer: setTimeout(() => this.waitAgain(question), WAIT_MS) };
+      this.questions.set(number, question);
       this.worker!.postMessage(request, [payload.buffer as ArrayBuffer]);
     });
+  }
+
+  private waitAgain(question: Question): void {
+    question.timer = setTimeout(() => this.end("lost"), WAIT_MS);
   }
 
   private take(answer: DecodeAnswer): void {
