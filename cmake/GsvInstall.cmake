@@ -134,7 +134,7 @@ set(CPACK_DEBIAN_GSV_PACKAGE_NAME gsv)
 set(CPACK_DEBIAN_GSV_DESCRIPTION "Simulator of robots: server, broker, recorder, viewer and behaviours")
 # These libraries are loaded at the first call, so dpkg-shlibdeps does not detect them.
 set(LATE_IN_PROGRAMS "libssl3, libsqlite3-0")
-set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12, libassimp5, libembree3-3, libtiff6, ${LATE_IN_PROGRAMS}")
+set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12, libassimp5, libembree3-3, libtiff6, libturbojpeg0, libpng16-16, ${LATE_IN_PROGRAMS}")
 set(CPACK_DEBIAN_LIBGSV_PACKAGE_DEPENDS "${LATE_IN_PROGRAMS}")
 set(CPACK_DEBIAN_GSV_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libopengl0")
 set(CPACK_DEBIAN_LIBGSV_PACKAGE_NAME libgsv${GSV_LIBRARY_VERSION})

@@ -20,7 +20,7 @@ TEST_SOURCE = re.compile(r"_(test|testing|benchmark|fuzz)\.(h|cc)$|(^|/)testing/
 FORBIDDEN_INCLUDES = {
     "corba": re.compile(r"^(omniORB4|omnithread|omniconfig|COS|idl)(/|\.|$)"),
     "sockets": re.compile(r"^(boost/(asio|beast)|sys/(socket|un)\.h|netinet/|arpa/|netdb\.h)"),
-    "opengl": re.compile(r"^(epoxy|EGL|GL|GLES\d?|KHR)/"),
+    "opengl": re.compile(r"^(EGL|GL|GLES\d?|KHR)/"),
 }
 FORBIDDEN_CODE = {
     "wall-clock": re.compile(

@@ -23,7 +23,20 @@ OWN_SDF = (
     "_ZNK3sdf3v127Element5CloneEv",
     "_ZN3sdf3v128initFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESt10shared_ptrINS0_7ElementEE",
 )
-LATE = ("libsdformat", "libignition", "libassimp", "libembree", "libssl", "libcrypto", "libsqlite", "libtiff")
+LATE = (
+    "libsdformat",
+    "libignition",
+    "libassimp",
+    "libembree",
+    "libssl",
+    "libcrypto",
+    "libsqlite",
+    "libtiff",
+    "libEGL",
+    "libOpenGL",
+    "libpng",
+    "libturbojpeg",
+)
 
 
 def output_of(*command):

@@ -6,10 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 
 #include "gsv/base/sanitizer.h"
+#include "gsv/rendering/opengl/gl.h"
 
 namespace gsv::rendering {
 namespace {
@@ -23,7 +24,8 @@ constexpr const char* kRemedy =
     "images need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
-// Checks whether a library can be opened. If it cannot, libepoxy would end the program.
+// Checks whether a library can be opened. If it cannot, the first call of one of its functions would
+// end the program (gsv_late_library()).
 Status CheckLibrary(const std::string& name) {
   void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
@@ -53,19 +55,31 @@ bool Has(const char* extensions, std::string_view name) {
   return false;
 }
 
-bool IsSoftware(EGLDeviceEXT device) {
-  return Has(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+// Returns a function of an extension; null if EGL does not have it.
+template <typename Function>
+Function FunctionOf(const char* name) {
+  return reinterpret_cast<Function>(eglGetProcAddress(name));
+}
+
+// Returns EGL_NO_DISPLAY if EGL does not know the platform.
+EGLDisplay DisplayOf(EGLenum platform, void* native) {
+  const auto get = FunctionOf<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  return get == nullptr ? EGL_NO_DISPLAY : get(platform, native, nullptr);
 }
 
 std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   std::vector<EGLDisplay> displays;
   if (!ListsDevices(client_extensions)) return displays;
+  const auto devices_of = FunctionOf<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  const auto text_of = FunctionOf<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
   EGLDeviceEXT devices[16];
   EGLint count = 0;
-  if (!eglQueryDevicesEXT(16, devices, &count)) return displays;
+  if (devices_of == nullptr || text_of == nullptr || !devices_of(16, devices, &count)) {
+    return displays;
+  }
   for (EGLint i = 0; i < count; ++i) {
-    if (IsSoftware(devices[i])) continue;
-    displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+    const bool is_software = Has(text_of(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
+    if (!is_software) displays.push_back(DisplayOf(EGL_PLATFORM_DEVICE_EXT, devices[i]));
   }
   return displays;
 }
@@ -77,8 +91,7 @@ std::vector<EGLDisplay> Displays(const EglOptions& options) {
   std::vector<EGLDisplay> displays;
   if (options.hardware) displays = DeviceDisplays(extensions);
   if (options.software && Has(extensions, "EGL_MESA_platform_surfaceless")) {
-    displays.push_back(
-        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+    displays.push_back(DisplayOf(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY));
   }
   return displays;
 }

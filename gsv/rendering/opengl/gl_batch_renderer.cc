@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include <epoxy/gl.h>
-
+#include "gsv/rendering/opengl/gl.h"
 #include "gsv/rendering/opengl/gpu_mesh.h"
 #include "gsv/rendering/opengl/gpu_texture.h"
 #include "gsv/rendering/raster/raster_batch_renderer.h"

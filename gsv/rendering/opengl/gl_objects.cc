@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <epoxy/gl.h>
+#include "gsv/rendering/opengl/gl.h"
 
 namespace gsv::rendering {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <epoxy/gl.h>
+#include "gsv/rendering/opengl/gl.h"
 
 namespace gsv::rendering {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include <epoxy/gl.h>
+#include "gsv/rendering/opengl/gl.h"
 
 namespace gsv::rendering {
 

@@ -1,7 +1,6 @@
 #include "gsv/rendering/opengl/instance_buffer.h"
 
-#include <epoxy/gl.h>
-
+#include "gsv/rendering/opengl/gl.h"
 #include "gsv/rendering/opengl/gpu_mesh.h"
 #include "gsv/rendering/opengl/shaders.h"
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <epoxy/gl.h>
-
 #include "gsv/base/check.h"
+#include "gsv/rendering/opengl/gl.h"
 #include "gsv/rendering/scene/antialiasing.h"
 
 namespace gsv::rendering {

@@ -1,7 +1,6 @@
 #include "gsv/rendering/opengl/shadow_map.h"
 
-#include <epoxy/gl.h>
-
+#include "gsv/rendering/opengl/gl.h"
 #include "gsv/rendering/opengl/gpu_texture.h"
 #include "gsv/rendering/opengl/shaders.h"
 

@@ -4,8 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include <epoxy/gl.h>
-
+#include "gsv/rendering/opengl/gl.h"
 #include "gsv/rendering/opengl/gpu_texture.h"
 #include "gsv/rendering/opengl/shaders.h"
 
