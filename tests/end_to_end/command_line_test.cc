@@ -3,7 +3,9 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,7 +49,8 @@ TEST(CommandLine, VersionLoadsNoOptionalLibraries) {
       RunProgram("/usr/bin/env", {"LD_DEBUG=files", Program("gsv").string(), "--version"});
   EXPECT_EQ(outcome.ending, "exit code 0");
   EXPECT_THAT(outcome.err, HasSubstr("libomniORB4"));
-  for (const char* library : {"libsdformat", "libignition", "libCOS4", "libCOSDynamic4"}) {
+  for (const char* library :
+       {"libsdformat", "libignition", "libCOS4", "libCOSDynamic4", "libEGL", "libpng"}) {
     EXPECT_THAT(outcome.err, Not(HasSubstr(library)));
   }
 }
@@ -269,6 +272,23 @@ TEST(CommandLine, UnknownCommandIsReported) {
             "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
   EXPECT_EQ(said({"ps", "office", "again"}), "gsv: unexpected argument again. See gsv ps --help\n");
   EXPECT_EQ(said({"rec"}), "gsv: a command is missing. See gsv rec --help\n");
+}
+
+// A command that is named first is added without the others.
+TEST(CommandLine, EachListedCommandHasAHelpText) {
+  std::istringstream help(RunProgram("gsv", {"--help"}).out);
+  const std::regex row("  ([a-z][a-z0-9-]+)(  .*)?");
+  std::set<std::string> names;
+  for (std::string line; std::getline(help, line);) {
+    if (std::smatch found; std::regex_match(line, found, row)) names.insert(found[1]);
+  }
+  EXPECT_THAT(names, IsSupersetOf({"run", "rec", "world", "fit", "ros2", "bench", "set-gravity"}));
+  for (const std::string& name : names) {
+    const Outcome outcome = RunProgram("gsv", {name, "--help"});
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("Usage: gsv " + name));
+    EXPECT_EQ(RunProgram("gsv", {"--insecure-corba", name, "--help"}).out, outcome.out);
+  }
 }
 
 TEST(CommandLine, NamesTheMissingArgumentOptionOrValue) {

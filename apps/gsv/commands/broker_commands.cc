@@ -51,7 +51,6 @@ void AddBrokerCommand(const CommandLine& line) {
     double liveness_max_silence_s = 600;
   };
   CLI::App* command = line.app.add_subcommand("broker", "Run a broker (OMG Trading Service)");
-  command->group("Commands for brokers");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("--port", arguments->port, "port to listen on; 0: any free port")
       ->check(Between(0, 65535))

@@ -20,8 +20,6 @@
 namespace gsv::app {
 namespace {
 
-constexpr const char* kBrokerGroup = "Commands for brokers";
-
 // A command that lists by default, with the subcommands `list`, `add` and `remove`.
 struct Listing {
   CLI::App* list = nullptr;
@@ -56,7 +54,6 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
                                       const char* description, const char* one,
                                       Actions (*actions_of)(const Arguments&)) {
   CLI::App* command = line.app.add_subcommand(name, description);
-  command->group(kBrokerGroup);
   auto arguments = std::make_shared<Arguments>();
   command
       ->add_option("--broker", arguments->broker,

@@ -172,6 +172,9 @@ void AddCheckCommands(const CommandLine& line) {
              notes = RobotNotes(*model);
              return base::Status();
            });
+}
+
+void AddDoctorCommand(const CommandLine& line) {
   struct DoctorArguments {
     std::string broker;
     bool security = false, json = false;

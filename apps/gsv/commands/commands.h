@@ -25,8 +25,9 @@ void AddRunCommand(const CommandLine& line);
 void AddCampaignCommand(const CommandLine& line);
 void AddCertificatesCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
-void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
-void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
+void AddBrokerCommands(const CommandLine& line);  // broker, offers, types, links
+void AddCheckCommands(const CommandLine& line);   // world check, model check
+void AddDoctorCommand(const CommandLine& line);
 void AddDrawCommand(const CommandLine& line);        // world draw
 void AddConvertCommand(const CommandLine& line);     // model convert
 void AddMapCommands(const CommandLine& line);        // world from-map, world to-map

@@ -291,7 +291,6 @@ CLI::App* AddOne(CLI::App& parent, const CommandLine& line,
 void AddRos2Commands(const CommandLine& line) {
   CLI::App* const ros2 =
       line.app.add_subcommand("ros2", "Inspect ROS 2 topics and nodes, without ROS");
-  ros2->group("Commands for ROS 2");
   ros2->require_subcommand(1);
   const auto arguments = std::make_shared<Ros2CommandArguments>();
   AddOne(*ros2, line, arguments, "topics", "List topics, their types and endpoints", false,
