@@ -118,20 +118,29 @@ template <int K>
 I8 Byte(I8 a) {
   return (I8)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(ByteOrder<K>()));
 }
+// Returns the eight bytes at from[index[i]] for the four elements of `index`. An element of `from`
+// has four bytes. On AMD's Zen 4, 16 lanes are loaded so in two thirds of the time of a gather,
+// and 8 lanes in the same time.
+inline __m256i FourPairs(const void* from, const std::int32_t* index) {
+  const auto pair = [&](int i) {
+    return reinterpret_cast<const double*>(static_cast<const std::int32_t*>(from) + index[i]);
+  };
+  const auto two = [&](int i) {
+    return _mm_castpd_si128(_mm_loadh_pd(_mm_load_sd(pair(i)), pair(i + 1)));
+  };
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(two(0)), two(2), 1);
+}
 struct I8x2 {
   I8 first, second;
 };
-// Loads from[index] and from[index + 1], with half the loads of two gathers.
+// Loads from[index] and from[index + 1].
 inline I8x2 GatherPairs(const void* from, I8 index) {
   // Loads the pairs of lanes 0, 1, 4, 5 into `low`, and those of lanes 2, 3, 6, 7 into `high`. The
   // shuffles below work within each half of a register, so they then give the order 0 to 7.
-  const __m256i halves = _mm256_permute4x64_epi64((__m256i)index, 0xd8);
-  const auto gather = [&](__m128i four) {
-    return _mm256_castsi256_ps(
-        _mm256_i32gather_epi64(static_cast<const long long*>(from), four, 4));
-  };
-  const __m256 low = gather(_mm256_castsi256_si128(halves));
-  const __m256 high = gather(_mm256_extracti128_si256(halves, 1));
+  alignas(32) std::int32_t at[8];
+  StoreInt(at, (I8)_mm256_permute4x64_epi64((__m256i)index, 0xd8));
+  const __m256 low = _mm256_castsi256_ps(FourPairs(from, at));
+  const __m256 high = _mm256_castsi256_ps(FourPairs(from, at + 4));
   return {(I8)_mm256_shuffle_ps(low, high, 0x88), (I8)_mm256_shuffle_ps(low, high, 0xdd)};
 }
 // Returns table[index] for each lane, without gathering.
@@ -323,9 +332,13 @@ struct I16x2 {
   I16 first, second;
 };
 inline I16x2 GatherPairs(const void* from, I16 index) {
-  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256((__m512i)index), from, 4);
-  const __m512i high =
-      _mm512_i32gather_epi64(_mm512_extracti32x8_epi32((__m512i)index, 1), from, 4);
+  alignas(64) std::int32_t at[16];
+  _mm512_store_si512(at, (__m512i)index);
+  const auto eight = [&](int i) {
+    const __m512i four = _mm512_castsi256_si512(FourPairs(from, at + i));
+    return _mm512_inserti64x4(four, FourPairs(from, at + i + 4), 1);
+  };
+  const __m512i low = eight(0), high = eight(8);
   const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
   return {(I16)_mm512_permutex2var_epi32(low, even, high),
           (I16)_mm512_permutex2var_epi32(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high)};
