@@ -1,6 +1,5 @@
 #include "gsv/simulation/robots/robot_agent.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "gsv/base/log_text.h"
@@ -9,8 +8,6 @@ namespace gsv::simulation {
 namespace {
 
 constexpr int kMaxClocks = 64;
-// The number of cache lines of a local behaviour and of a body that are loaded before a turn.
-constexpr std::size_t kBehaviourLines = 2, kBodyLines = 2;
 // Maximum number of bytes of the reason that a behaviour gives for ending.
 constexpr std::size_t kMaxReasonLength = 1000;
 
@@ -249,135 +246,6 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   return OfferDrive(0, command);
 }
 
-base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& command) {
-  const auto snapshot = shared_->history.latest();
-  const int body = snapshot->layout->Find(robot_);
-  if (body < 0) {
-    return base::Fail(base::ErrorCode::kNotRunning, "the robot is not in the world yet", robot_);
-  }
-  const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
-  if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
-  AgentCallLock lock(*shared_);
-  if (auto ok = CheckCanCommand(); !ok) return ok;
-  Commands().CommandJoint(joint, command);
-  return {};
-}
-
-base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
-  {
-    AgentCallLock lock(*shared_);
-    if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
-  }
-  const auto snapshot = shared_->history.latest();
-  const int body = snapshot->layout->Find(robot_);
-  if (body < 0)
-    return base::Fail(base::ErrorCode::kEnded, "the robot does not exist any more", robot_);
-  if (joint < 0 || joint >= static_cast<int>(model_->joints.size())) {
-    return base::Fail(base::ErrorCode::kNotFound,
-                      "there is no joint number " + std::to_string(joint), robot_);
-  }
-  return JointReadingIn(*snapshot, body, joint);
-}
-
-base::Status RobotAgent::OpenSensor(const std::string& name) {
-  AgentCallLock lock(*shared_);
-  if (auto ok = CheckCanCommand(); !ok) return ok;
-  if (auto ok = rack_.Open(name); !ok) return ok;
-  SwitchOn(**rack_.Find(name));
-  return {};
-}
-
-void RobotAgent::SwitchOn(const MountedSensor& sensor) {
-  auto device = sensor.device();
-  if (device == nullptr || !device->IsOnWhileOpen()) return;
-  Commands().Add({DeviceAction::Kind::kSwitchOn, std::move(device)});
-}
-
-void RobotAgent::StartDevice(const MountedSensor& sensor) {
-  auto device = sensor.device();
-  auto command = device != nullptr ? device->first() : std::nullopt;
-  if (!command) return;
-  Commands().Add({DeviceAction::Kind::kCommand, std::move(device), *std::move(command)});
-}
-
-void RobotAgent::StartDevices() {
-  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
-    StartDevice(MountedSensor(design));
-  }
-}
-
-base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
-  AgentCallLock lock(*shared_);
-  if (auto ok = CheckCanCommand(); !ok) return ok;
-  const std::string name = description.name;
-  auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
-  if (!created) return created;
-  const MountedSensorPtr sensor = *rack_.Find(name);
-  shared_->history.Use(sensor->design().cadence);
-  SwitchOn(*sensor);
-  StartDevice(*sensor);
-  return {};
-}
-
-base::Status RobotAgent::CloseSensor(const std::string& name) {
-  AgentCallLock lock(*shared_);
-  const auto sensor = rack_.Find(name);
-  if (auto ok = rack_.Close(name); !ok) return ok;
-  auto device = (*sensor)->device();
-  // Closing an actuator of the model does not end the actuator's command.
-  const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
-  if (ends && CheckAlive()) {
-    Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
-  }
-  return {};
-}
-
-base::Status RobotAgent::CommandDevice(const std::string& actuator, world::DeviceCommand command) {
-  const auto mounted = rack_.Find(actuator);
-  if (!mounted) return base::Fail(mounted.error());
-  auto action = CommandOf(**mounted, std::move(command), robot_);
-  if (!action) return base::Fail(action.error());
-  AgentCallLock lock(*shared_);
-  if (auto ok = CheckCanCommand(); !ok) return ok;
-  Commands().Add(*std::move(action));
-  return {};
-}
-
-base::Status RobotAgent::Send(const std::string& radio, const std::string& receiver,
-                              std::string content) {
-  const auto mounted = rack_.Find(radio);
-  if (!mounted) return base::Fail(mounted.error());
-  AgentCallLock lock(*shared_);
-  if (auto ok = CheckCanCommand(); !ok) return ok;
-  return Commands().Send(**mounted, receiver, std::move(content), robot_);
-}
-
-base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
-  const auto snapshot = shared_->history.At(sensor.design().cadence);
-  const int body = snapshot->layout->Find(robot_);
-  if (body < 0)
-    return base::Fail(base::ErrorCode::kEnded, "the robot does not exist any more", robot_);
-  return sensor.Watch({snapshot, body, shared_->seed, shared_->rays});
-}
-
-base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
-  {
-    AgentCallLock lock(*shared_);
-    if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
-  }
-  const auto mounted = rack_.Find(sensor);
-  if (!mounted) return base::Fail(mounted.error());
-  auto reading = Sample(**mounted);
-  if (reading) (*mounted)->CountReading();
-  return reading;
-}
-
-base::Result<sensing::Reading> RobotAgent::Watch(const std::string& sensor) {
-  const auto mounted = rack_.Find(sensor);
-  if (!mounted) return base::Fail(mounted.error());
-  return Sample(**mounted);
-}
-
 void RobotAgent::MarkStarted() {
   started_ = true;
   running_since_ = WallNow();
@@ -437,107 +305,6 @@ void RobotAgent::ReportFailure(std::string_view reason) {
   cause_ = base::LogLine(reason, kMaxReasonLength, {});
   ReportDeath("its run ended with an error: " + cause_);
   shared_->given_up.emplace_back(robot_, DescribeInEvents() + ": " + detail_);
-}
-
-void RobotAgent::MakeReady() {
-  is_blocked_ = false;
-  shared_->ready.push_back(this);
-}
-
-// The next three functions need no lock. The stepping thread has locked the world now, and only
-// with this lock can the index of the body change. The behaviour can change only before the run
-// starts.
-void RobotAgent::PrefetchBehaviour(const world::Snapshot& snapshot) const
-    GSV_NO_THREAD_SAFETY_ANALYSIS {
-  PrefetchLines(local_, kBehaviourLines);
-  if (body_ < 0) return;
-  PrefetchLines(&snapshot.state.bodies[static_cast<std::size_t>(body_)], 1);
-  PrefetchLines(&snapshot.layout->bodies[static_cast<std::size_t>(body_)], kBodyLines);
-}
-
-void RobotAgent::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS { local_->PrefetchTurn(); }
-
-void RobotAgent::TakeTurn(const Turn::Instant& instant,
-                          sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
-  sampling.MoveTo(body_);
-  turn_.Begin(instant, sampling);
-  const WallTime began = instant.is_timed ? WallNow() : CoarseWallNow();
-  turn_began_.store(began, std::memory_order_release);
-  local_->TakeTurn(turn_);
-  turn_clock_ = local_->clock();
-  turn_began_.store(WallTime(), std::memory_order_release);
-  if (instant.is_timed) turn_took_ = WallNow() - began;
-}
-
-std::optional<WallTime> RobotAgent::in_turn_since() const {
-  const WallTime began = turn_began_;
-  return began == WallTime() ? std::nullopt : std::optional(began);
-}
-
-RobotAgent::UsualEnd RobotAgent::ApplyUsualTurn(SimTime now) {
-  const ClockId clock = turn_clock_;
-  const auto* const waiting = std::get_if<Turn::Waiting>(&turn_.end_);
-  if (waiting == nullptr || waiting->until <= now) return {};
-  if (is_removed_ || fate_ != Fate::kAlive || death_reported_ || has_given_up_) return {};
-  // If the agent has a second clock, that clock may still run.
-  if (clocks_.count() != 1 || !clocks_.IsOpen(clock) || clocks_.IsWaiting(clock)) return {};
-  UsualEnd end{.is_usual = true, .until = waiting->until};
-  clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
-  if (!is_commanded_ && turn_.commands_.has_only_drive()) {
-    end.has_drive = true;
-    end.drive = turn_.commands_.drive()->command;
-  } else if (!turn_.commands_.empty()) {
-    MergeTurnCommands();
-    end.has_command = !std::exchange(is_commanded_, true);
-  }
-  clocks_.WaitUntil(clock, waiting->until, now);
-  end.was_counted = std::exchange(is_counted_, false);
-  return end;
-}
-
-void RobotAgent::MergeTurnCommands() {
-  RobotCommands& commands = turn_.commands_;
-  if (commands.drive() && turn_.exchanges_ > 0) commands.drive()->clock = turn_clock_;
-  commands_.Merge(std::move(commands));
-}
-
-std::function<void()> RobotAgent::ApplyTurn() {
-  const ClockId clock = turn_clock_;
-  if (is_removed_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
-  clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
-  if (!turn_.commands_.empty()) {
-    (void)Commands();
-    MergeTurnCommands();
-  }
-  if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
-    is_blocked_ = true;
-    return std::move(blocked->work);
-  }
-  if (const auto* waiting = std::get_if<Turn::Waiting>(&turn_.end_)) {
-    if (!BeginWait(clock, waiting->until)) MakeReady();
-  } else if (const auto* failed = std::get_if<Turn::Failed>(&turn_.end_)) {
-    ReportFailure(failed->reason);
-  } else {
-    clocks_.Close(clock);
-    UpdateRunningCount();
-  }
-  return {};
-}
-
-bool RobotAgent::ApplyDriveCommand(world::State& state) {
-  if (!commands_.has_only_drive()) return false;
-  ApplyDrive(commands_.drive()->command, state);
-  commands_.drive().reset();
-  is_commanded_ = false;
-  return true;
-}
-
-RobotCommands RobotAgent::TakeCommands() {
-  is_commanded_ = false;
-  RobotCommands commands = commands_.Take();
-  if (commands.drive() && !has_motor_) commands.SetDrive({});
-  for (const int joint : lost_joints_) commands.ForgetJoint(joint);
-  return commands;
 }
 
 void RobotAgent::LoseMotor() {
