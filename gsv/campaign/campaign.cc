@@ -12,6 +12,7 @@
 #include "gsv/base/random.h"
 #include "gsv/campaign/engine.h"
 #include "gsv/scenario/scenario_file.h"
+#include "gsv/scenario/test_keys.h"
 #include "gsv/scenario/yaml_mapping.h"
 
 namespace gsv::campaign {
@@ -87,8 +88,8 @@ class ParameterReader {
   void ReadList(const YAML::Node& list, Parameter& parameter) const {
     for (const YAML::Node& value : list) {
       if (value.IsScalar()) {
-        parameter.values.push_back(value.Tag() == "!" ? "\"" + value.Scalar() + "\""
-                                                      : value.Scalar());
+        const bool is_quoted = value.Tag() == "!";
+        parameter.values.push_back(is_quoted ? scenario::OneLineYaml(value) : value.Scalar());
       } else {
         place_.AddProblem(value.Mark(), parameter.path, "a value must be a number or a text");
       }

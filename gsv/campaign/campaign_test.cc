@@ -66,6 +66,23 @@ TEST_F(CampaignTest, ListsFormAGridAndDrawsDependOnTheSeed) {
   EXPECT_EQ(scenario->expect.size(), 1u);
 }
 
+TEST_F(CampaignTest, QuotedTextsKeepTheirCharacters) {
+  const auto campaign = Read(
+      "scenario: s.yaml\nparameters:\n"
+      "  robots[0].name: ['a \"b\"', 'C:\\new', \"plain\", '5']\n");
+  ASSERT_TRUE(campaign);
+  const char* const names[]{"a \"b\"", "C:\\new", "plain", "5"};
+  for (std::size_t run = 0; run < 4; ++run) {
+    const auto text = campaign->ScenarioWith(campaign->ValuesOf(run));
+    ASSERT_TRUE(text);
+    base::Problems problems;
+    const auto scenario = scenario::ParseScenario(*text, "variant", problems);
+    ASSERT_TRUE(scenario) << *text;
+    EXPECT_EQ(scenario->robots.at(0).name, names[run]) << *text;
+  }
+  EXPECT_EQ(campaign->ValuesOf(2), std::vector<std::string>{"plain"});
+}
+
 TEST_F(CampaignTest, ReportsErrorsBeforeAnythingRuns) {
   const std::pair<const char*, const char*> bad[]{
       {"parameters: {seed: [1]}", "the key scenario is required"},

@@ -38,25 +38,35 @@ base::Result<sensing::OdometryDrift> DriftOf(const CompareOptions& options) {
   return drift;
 }
 
+// Returns the distance between the reckoned and the true position at the last instant that both paths
+// have, after they were aligned at their first common instant. NaN if they have none.
 double EndError(const std::vector<TimedPose>& reckoned, const std::vector<TimedPose>& truth) {
-  const TimedPose& a = reckoned.front();
-  const auto from = PoseAt(truth, a.time, geometry::kInfinity);
-  const auto end =
-      PoseAt(truth, std::min(truth.back().time, reckoned.back().time), geometry::kInfinity);
-  if (!from || !end) return 0;
-  const auto last = PoseAt(reckoned, end->time, geometry::kInfinity);
-  if (!last) return 0;
-  const double turn = from->yaw - a.yaw;
-  const double dx = last->x - a.x, dy = last->y - a.y;
+  const double begin = std::max(reckoned.front().time, truth.front().time);
+  const double finish = std::min(truth.back().time, reckoned.back().time);
+  if (begin > finish) return std::nan("");
+  const auto at = [](const std::vector<TimedPose>& path, double time) {
+    return PoseAt(path, time, geometry::kInfinity);
+  };
+  const auto first = at(reckoned, begin), last = at(reckoned, finish);
+  const auto from = at(truth, begin), end = at(truth, finish);
+  if (!first || !last || !from || !end) return std::nan("");
+  const double turn = from->yaw - first->yaw;
+  const double dx = last->x - first->x, dy = last->y - first->y;
   return std::hypot(from->x + std::cos(turn) * dx - std::sin(turn) * dy - end->x,
                     from->y + std::sin(turn) * dx + std::cos(turn) * dy - end->y);
+}
+
+void AddWarning(const std::string& warning, Comparison& result) {
+  if (warning.empty()) return;
+  result.warning += (result.warning.empty() ? "" : "; ") + warning;
 }
 
 base::Status CompareOdometry(const Log& log, const CompareOptions& options, Comparison& result) {
   const auto drift = DriftOf(options);
   if (!drift) return base::Fail(drift.error());
   const std::vector<TimedPose> path = ReckonedPath(log, options.wheel_distance, log.truth.front());
-  const MotionStatistics real = StatisticsOf(Windows(path, log.truth, kWindow));
+  const std::vector<MotionWindow> windows = Windows(path, log.truth, kWindow);
+  const MotionStatistics real = StatisticsOf(windows);
   std::vector<double> way, turn, way_scatter, turn_scatter, ends;
   Series way_series{"way", "m", real.way_residuals, {}};
   Series turn_series{"turn", "rad", real.turn_residuals, {}};
@@ -78,11 +88,18 @@ base::Status CompareOdometry(const Log& log, const CompareOptions& options, Comp
     result.rows.push_back(
         {"odometry", what, unit, real_value, summary.mean, k95 * summary.deviation});
   };
+  add("error at the end", "m", EndError(path, log.truth), ends);
+  if (windows.size() < 2) {
+    AddWarning(fmt::format("the log is too short for statistics of the odometry, which need two "
+                           "windows of {} s with a reference",
+                           kWindow),
+               result);
+    return {};
+  }
   add("true distance / estimated distance", "", real.way_ratio, way);
   add("true turn / estimated turn", "", real.turn_ratio, turn);
   add("scatter of the distance in 5 s", "m", real.way_scatter, way_scatter);
   add("scatter of the turn in 5 s", "rad", real.turn_scatter, turn_scatter);
-  add("error at the end", "m", EndError(path, log.truth), ends);
   result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of path lengths", "", 0,
                          KolmogorovSmirnov(way_series.real, way_series.simulated), 0});
   result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of the turn", "", 0,
@@ -175,7 +192,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   if (!log.is_sonar) AddScanMedians(device, pairs, result);
   const Mixture real_mix = MixtureOf(pairs, true, kTolerance);
   const Mixture mix = MixtureOf(pairs, false, kTolerance);
-  result.warning = WarningAbout(real_mix, kTolerance);
+  AddWarning(WarningAbout(real_mix, kTolerance), result);
   const double beams = count * static_cast<double>(real.size());
   double heard = 0, simulated_heard = 0;
   for (std::size_t i = 0; i < real.size(); ++i) {

@@ -20,7 +20,8 @@ namespace gsv::reality {
 struct Row {
   // Name of the device, name of the statistic, and unit of the three values.
   std::string device, what, unit;
-  double real = 0, simulated = 0, confidence = 0;  // values of the log and of the simulation
+  // The values of the log and of the simulation; NaN if there is none.
+  double real = 0, simulated = 0, confidence = 0;
 };
 
 // The real and the simulated distribution of one quantity, which are plotted together.
@@ -71,9 +72,9 @@ struct FittedParameter {
 };
 // A simulated device whose parameters were fitted to a log.
 struct FittedDevice {
-  std::string type, name;  // sensor type, and name of the sensor in SDFormat
-  std::vector<FittedParameter> parameters;
-  std::string warning = {};  // see Comparison::warning
+  std::string type, name;                   // sensor type, and name of the sensor in SDFormat
+  std::vector<FittedParameter> parameters;  // empty if the log is too short for this device
+  std::string warning = {};                 // see Comparison::warning
 };
 // Fits the parameters of a scanner and of radio ranges to the log's even blocks (world_fit.h). Fits
 // those of odometry, and the noise of a lidar at rest, to the whole log. For a ring of sonars,

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/reality/radio_comparison.h"
 #include "gsv/reality/world_fit.h"
 
@@ -74,6 +75,57 @@ TEST(Comparison, RefusesParametersThatNoDeviceOfTheLogHas) {
   EXPECT_FALSE(Fit(InARoom(false), options));
   options.parameters = {{"noise.stddev", 0.1}, {"range_noise", 0.01}};
   EXPECT_TRUE(Compare(InARoom(false), options));
+}
+
+TEST(Comparison, RefusesADeviceWithFewerBeamsThanTheLog) {
+  CompareOptions options;
+  options.parameters = {{"scan.horizontal.resolution", 0.5}};
+  const auto refused = Compare(InARoom(false), options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("the log has 17"));
+}
+
+// A robot that drives straight ahead at 0.1 m/s, seen by a reference system from `begin` to `end`.
+// Its odometry is a quarter too long, in a frame of its own that is rotated by a right angle.
+Log StraightAhead(double begin, double end) {
+  Log log;
+  for (int i = 0; i <= 400; ++i) {
+    const double time = 0.1 * i;
+    log.odometry.push_back({time, 3, 0.125 * time, geometry::kPi / 2});
+    if (time >= begin && time <= end) log.truth.push_back({time, 0.1 * time, 1, 0});
+  }
+  return log;
+}
+
+double RealValue(const Comparison& comparison, const std::string& what) {
+  for (const Row& row : comparison.rows) {
+    if (row.what == what) return row.real;
+  }
+  return std::nan("");
+}
+
+TEST(Comparison, AlignsOdometryAndReferenceAtTheirFirstCommonInstant) {
+  for (const double begin : {0.0, 0.45, 10.05}) {
+    const auto comparison = Compare(StraightAhead(begin, 30.01), {});
+    ASSERT_TRUE(comparison) << comparison.error().Sentence();
+    const double first = begin == 0 ? 0 : begin + 0.05;
+    EXPECT_WITHIN(RealValue(*comparison, "error at the end"), 0.025 * (30 - first), 1e-9, "m");
+    EXPECT_WITHIN(RealValue(*comparison, "true distance / estimated distance"), 0.8, 1e-6, "");
+    EXPECT_EQ(comparison->warning, "");
+  }
+}
+
+TEST(Comparison, OfAShortLogHasNoStatisticsOfTheOdometry) {
+  const Log log = StraightAhead(0, 4.01);
+  const auto comparison = Compare(log, {});
+  ASSERT_TRUE(comparison) << comparison.error().Sentence();
+  EXPECT_EQ(comparison->rows.size(), 1u);
+  EXPECT_WITHIN(RealValue(*comparison, "error at the end"), 0.1, 1e-9, "m");
+  EXPECT_THAT(comparison->warning,
+              HasSubstr("the log is too short for statistics of the odometry"));
+  const auto fitted = Fit(log, {});
+  ASSERT_FALSE(fitted);
+  EXPECT_THAT(fitted.error().message, HasSubstr("the log is too short to fit odometry"));
 }
 
 TEST(WorldFit, ReachesAsFarAsTheEchoes) {

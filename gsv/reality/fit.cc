@@ -34,6 +34,13 @@ std::vector<T> Without(const std::vector<T>& all, std::size_t part) {
 FittedDevice FitOdometry(const Log& log, const CompareOptions& options) {
   const auto windows =
       Windows(ReckonedPath(log, options.wheel_distance, log.truth.front()), log.truth, kFitWindow);
+  FittedDevice device{"odometry", "odometry", {}};
+  if (windows.size() < 2) {
+    device.warning = fmt::format(
+        "the log is too short to fit odometry, which needs two windows of {} s with a reference",
+        kFitWindow);
+    return device;
+  }
   using sensing::OdometryDrift;
   struct Parameter {
     const char* name;
@@ -50,7 +57,6 @@ FittedDevice FitOdometry(const Log& log, const CompareOptions& options) {
   std::vector<OdometryDrift> without;
   for (std::size_t part = 0; part < kParts; ++part)
     without.push_back(FitDrift(Without(windows, part)));
-  FittedDevice device{"odometry", "odometry", {}};
   for (const Parameter& parameter : kParameters) {
     std::vector<double> values;
     for (const OdometryDrift& drift : without) values.push_back(drift.*parameter.member);
@@ -271,6 +277,13 @@ base::Result<std::vector<FittedDevice>> Fit(const Log& given, const CompareOptio
     }
   }
   if (!log.radio.empty()) devices.push_back(FitRanging(log));
+  const bool is_too_short = !devices.empty() && std::all_of(devices.begin(), devices.end(),
+                                                            [](const FittedDevice& device) {
+                                                              return device.parameters.empty();
+                                                            });
+  if (is_too_short) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, devices.front().warning);
+  }
   if (devices.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the log has nothing to fit a device to: it needs scans with poses, or "
@@ -283,6 +296,7 @@ std::string ToSdf(const std::vector<FittedDevice>& devices) {
   std::string sdf;
   for (const FittedDevice& device : devices) {
     if (!device.warning.empty()) sdf += "<!-- " + device.warning + " -->\n";
+    if (device.parameters.empty()) continue;
     sdf += fmt::format("<sensor name=\"{}\" type=\"{}\">\n", device.name, device.type);
     // Parameters of one group ("noise.mean", "noise.stddev") go into one element.
     std::map<std::string, std::string> groups;

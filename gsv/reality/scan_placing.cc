@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "gsv/geometry/constants.h"
 #include "gsv/reality/localization.h"
 #include "gsv/reality/maps/map_world.h"
@@ -213,6 +215,15 @@ base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const L
     ScanPair pair{*scan.base, scan.ranges, {}, {}};
     pair.simulated = device->Read(pair.pose, static_cast<std::int64_t>(i));
     pair.exact = exact->Read(pair.pose, 0);
+    // A parameter, such as scan.horizontal.resolution, can change the number of beams. Intensities
+    // follow the ranges.
+    const std::size_t beams = scan.ranges.size();
+    if (pair.simulated.size() < beams || pair.exact.size() < beams) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        fmt::format("the simulated device has {} beams, and the log has {}; do not "
+                                    "set the parameters of its beams",
+                                    std::min(pair.simulated.size(), pair.exact.size()), beams));
+    }
     MarkMissing(pair.simulated, log.max_range);
     MarkMissing(pair.exact, log.max_range);
     pairs.push_back(std::move(pair));

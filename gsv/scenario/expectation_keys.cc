@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 
 #include "gsv/scenario/scenario_keys.h"
@@ -313,7 +314,9 @@ class FormulaReader {
 
   Formula Sensor(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(QuantityKind::kSensor, "", -kMax, kMax);
+    // Ranges may be infinite (docs/sensors.md).
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Formula atom = Atom(QuantityKind::kSensor, "", -kInfinity, kInfinity);
     const std::string name = of.Text("of").value_or("");
     const std::size_t slash = std::min(name.find('/'), name.size());
     atom.quantity.first = name.substr(0, slash);

@@ -1,4 +1,6 @@
 // Tests the keys `faults` and `expect`.
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -80,6 +82,14 @@ TEST(TestKeys, EveryKeyIsReadAndWrittenBack) {
   const Scenario again = ReadWhole(ToYaml(scenario));
   EXPECT_EQ(again, scenario) << ToYaml(scenario);
   EXPECT_EQ(again.expect[0].name, "there in time: #1");
+}
+
+TEST(TestKeys, ASensorWithoutABoundMayReadInfinity) {
+  const Scenario scenario =
+      ReadWhole("duration: 1\nexpect:\n  - always: {sensor: {of: scout/lidar, at_least: 0.3}}\n");
+  const Formula& atom = scenario.expect.at(0).formula.parts.at(0);
+  EXPECT_EQ(atom.min, 0.3);
+  EXPECT_EQ(atom.max, std::numeric_limits<double>::infinity());
 }
 
 TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {

@@ -35,7 +35,10 @@ double Distance(const scenario::Formula& condition,
   if (condition.kind == FormulaKind::kAtom) {
     const std::optional<double> value = values.at(next++);
     if (!value) return std::nan("");
-    return std::min(*value - condition.min, condition.max - *value);
+    // An infinite value is infinitely far from a bound that is not there.
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return std::min(condition.min == -kNone ? kNone : *value - condition.min,
+                    condition.max == kNone ? kNone : condition.max - *value);
   }
   double distance = 0;
   for (std::size_t i = 0; i < condition.parts.size(); ++i) {

@@ -69,6 +69,17 @@ TEST(Margin, IsTheRemainingTimeForNeverStuck) {
   EXPECT_EQ(state.unit, "s");
 }
 
+// A lidar reads infinity where nothing is, and -infinity below its smallest range.
+TEST(Margin, OfASensorWithInfiniteValuesIsThatOfTheOthers) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto state = Noted("{always: {sensor: {of: a/lidar, at_most: 2}}}", {{-infinity}, {1.5}});
+  EXPECT_DOUBLE_EQ(state.margin.value(), 0.5);
+  const auto both = Noted(
+      "{always: {all: [{sensor: {of: a/lidar, at_most: 2}}, {speed: {robot: a, at_most: 1}}]}}",
+      {{-infinity, 0.25}});
+  EXPECT_DOUBLE_EQ(both.margin.value(), 0.75);
+}
+
 TEST(Margin, IsMeasuredInsideTheWindowOnly) {
   const auto state = Noted("{always: {speed: {robot: a, at_most: 1}}, from: 1, by: 2}",
                            {{9.0}, {0.5}, {0.25}, {9.0}});

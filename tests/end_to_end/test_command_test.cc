@@ -93,6 +93,23 @@ TEST_F(TestCommand, FailureKeepsItsFiles) {
   EXPECT_THAT(again.err, HasSubstr("moves.yaml:6:10: too far: violated at "));
 }
 
+TEST_F(TestCommand, FailureRemovesOnlyFoldersOfFailures) {
+  const std::string expect = "expect: [{reaches: {robot: pebble, x: 3, y: 4}, by: 0.5}]\n";
+  const std::string file = Scenario("room.yaml", expect);
+  const auto folder = [&](const char* drive) -> fs::path {
+    const Outcome run = Test({file, "--no-record", "--json", "--drive", drive});
+    return run.LastLine()["results"][0]["folder"].get<std::string>();
+  };
+  const fs::path kept = folder("pebble=omni");
+  EXPECT_THAT(TextOf(kept / "README.txt"), HasSubstr("--lockstep --drive 'pebble=omni'\n"));
+  EXPECT_EQ(folder("pebble=omni"), kept);
+  fs::remove_all(kept);
+  fs::create_directory(kept);
+  std::ofstream(kept / "notes.txt") << "important";
+  EXPECT_EQ(folder("pebble=omni"), kept.string() + "_2");
+  EXPECT_EQ(TextOf(kept / "notes.txt"), "important");
+}
+
 TEST_F(TestCommand, TheClipSpansAllViolations) {
   const std::string file =
       folder_.Write("two.yaml",

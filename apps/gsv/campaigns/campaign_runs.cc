@@ -80,7 +80,8 @@ TestResult RunExecutor::RunHere(std::int64_t run, const std::string& scenario,
   const fs::path file = folder_ / fmt::format("run_{:06}.yaml", run);
   TestResult result;
   if (std::ofstream out(file); out << scenario << std::flush) {
-    result = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
+    const std::string name = file.stem().string();
+    result = RunTestCase({file, name, name, true}, options_, is_cancelled);
   } else {
     result.message = "cannot write the scenario to " + file.string();
   }

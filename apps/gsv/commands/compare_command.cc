@@ -117,10 +117,11 @@ void Print(const reality::Comparison& comparison, bool json) {
   std::printf("%-10s %-46s %10s %10s %10s\n", "device", "what", "real", "simulated", "± (95 %)");
   for (const reality::Row& row : comparison.rows) {
     const std::string what = row.what + (row.unit.empty() ? "" : " (" + row.unit + ")");
-    const std::string simulated =
-        std::isfinite(row.simulated) ? fmt::format("{:.4g}", row.simulated) : "-";
-    std::printf("%-10s %-46s %10.4g %10s %10.2g\n", row.device.c_str(), what.c_str(), row.real,
-                simulated.c_str(), row.confidence);
+    const auto text = [](double value) {
+      return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+    };
+    std::printf("%-10s %-46s %10s %10s %10.2g\n", row.device.c_str(), what.c_str(),
+                text(row.real).c_str(), text(row.simulated).c_str(), row.confidence);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "apps/gsv/trials/test_cases.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "gsv/base/sorting.h"
@@ -39,6 +40,18 @@ void Check(const std::string& file, base::Problems& problems) {
   }
 }
 
+// Returns a name for the folder of a case which no case in `cases` has.
+std::string FolderFor(std::string name, const std::vector<TestCase>& cases) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  std::string folder = name;
+  const auto has_folder = [&](const TestCase& test) { return test.folder == folder; };
+  for (int i = 2; std::any_of(cases.begin(), cases.end(), has_folder); ++i) {
+    folder = name + "_" + std::to_string(i);
+  }
+  return folder;
+}
+
 }  // namespace
 
 base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>& names,
@@ -52,7 +65,8 @@ base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>
                                         [&](const TestCase& test) { return test.file == file; });
       if (is_known) continue;
       Check(file, problems);
-      cases.push_back({file, fs::path(file).lexically_normal().replace_extension().string()});
+      const std::string title = fs::path(file).lexically_normal().replace_extension().string();
+      cases.push_back({file, title, FolderFor(title, cases)});
     }
   }
   return cases;

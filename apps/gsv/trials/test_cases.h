@@ -15,8 +15,10 @@ namespace gsv::app {
 
 // One scenario to run.
 struct TestCase {
-  std::string file;  // as the user gave it
-  std::string name;  // the path of the file without its extension
+  std::string file;    // as the user gave it
+  std::string name;    // the path of the file without its extension
+  std::string folder;  // the folder in TestOptions::failures; no other case of the session has it
+  bool is_temporary = false;  // whether the file is removed after the run
 };
 
 // Returns the scenarios of files and folders. A folder stands for all *.yaml and *.yml files in it,

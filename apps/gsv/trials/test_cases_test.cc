@@ -46,6 +46,19 @@ TEST_F(TestCasesTest, FileNamedTwiceIsOneCase) {
   EXPECT_THAT(Names({b, path(), a}), ElementsAre("b", "a"));
 }
 
+TEST_F(TestCasesTest, EachCaseHasItsOwnFolder) {
+  folder_.Write("go-to.yaml", kScenario);
+  folder_.Write("go_to.yaml", kScenario);
+  folder_.Write("go.to.yaml", kScenario);
+  const auto cases = FindTestCases({path()}, problems_);
+  ASSERT_TRUE(cases);
+  std::vector<std::string> ends;
+  for (const TestCase& test : *cases) {
+    ends.push_back(test.folder.substr(test.folder.find("go")));
+  }
+  EXPECT_THAT(ends, ElementsAre("go_to", "go_to_2", "go_to_3"));
+}
+
 TEST_F(TestCasesTest, MissingFileIsAnError) {
   EXPECT_THAT(
       Names({path() + "/none.yaml"}),

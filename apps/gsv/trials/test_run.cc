@@ -168,14 +168,43 @@ std::string KeepClips(const fs::path& recording, const fs::path& kept, const Tes
   return text;
 }
 
+// Returns the command that repeats a run.
+std::string CommandFor(const fs::path& scenario, const TestOptions& options) {
+  std::string command =
+      "gsv run " + Quoted(fs::absolute(scenario).lexically_normal()) + " --lockstep";
+  for (const std::string& drive : options.drives) command += " --drive " + Quoted(drive);
+  return command;
+}
+
+// Returns the folder for the files of a failed run. Its earlier files may be removed: it is new, or
+// KeepFailure() has written it.
+fs::path FolderOf(const TestCase& test, const TestOptions& options) {
+  const fs::path first = fs::absolute(options.failures) / test.folder;
+  fs::path folder = first;
+  const auto may_be_replaced = [&] {
+    std::error_code ignored;
+    return !fs::exists(folder, ignored) || (fs::exists(folder / "README.txt", ignored) &&
+                                            fs::exists(folder / "scenario.yaml", ignored));
+  };
+  for (int i = 2; !may_be_replaced(); ++i) folder = fmt::format("{}_{}", first.string(), i);
+  return folder;
+}
+
+void ReplaceAll(std::string& text, const std::string& old, const std::string& with) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += with.size()) {
+    text.replace(at, old.size(), with);
+  }
+}
+
 // Keeps the files of a failed run in options.failures. These files are the parts of the recording
 // around the violations, the image, the output, and the command that repeats the run.
 void KeepFailure(const fs::path& folder, const TestOptions& options, const ChildOutcome& outcome,
                  TestResult& result) {
-  std::string name = result.test.name;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  const fs::path kept = fs::absolute(options.failures) / name;
+  const fs::path kept = FolderOf(result.test, options);
+  if (result.test.is_temporary) {
+    result.command = CommandFor(kept / "scenario.yaml", options);
+    ReplaceAll(result.message, result.test.file, (kept / "scenario.yaml").string());
+  }
   std::error_code ignored;
   fs::remove_all(kept, ignored);
   fs::create_directories(kept, ignored);
@@ -213,7 +242,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
                        const std::atomic<bool>& is_cancelled) {
   const auto start = TestClock::now();
   TestResult result{test};
-  result.command = "gsv run " + Quoted(fs::absolute(test.file).lexically_normal()) + " --lockstep";
+  result.command = CommandFor(test.file, options);
   for (int i = 0; i < options.repeat; ++i) {
     const auto folder = base::TemporaryFolder::Make("gsv-test");
     const auto outcome =

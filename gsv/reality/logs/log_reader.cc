@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/counted.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::reality {
@@ -45,6 +46,21 @@ void StartAtZero(Log& log) {
   for (RangeScan& scan : log.scans) {
     if (scan.base) scan.base->time = scan.time;
   }
+}
+
+// The first scan must have a pose, because localization starts there. Removes the scans before the
+// first pose.
+void RemoveScansBeforeTheFirstPose(Log& log, const std::filesystem::path& path,
+                                   base::Problems& problems) {
+  const auto first = std::find_if(log.scans.begin(), log.scans.end(),
+                                  [](const RangeScan& scan) { return scan.base.has_value(); });
+  if (first == log.scans.begin() || first == log.scans.end()) return;
+  problems.push_back(
+      {base::Problem::Severity::kWarning,
+       "ignored " + base::Counted(static_cast<std::size_t>(first - log.scans.begin()), "scan") +
+           " before the first pose",
+       path.string()});
+  log.scans.erase(log.scans.begin(), first);
 }
 
 // Detects one of two formats, by message names at the beginning of the first 64 lines. Returns an
@@ -95,6 +111,7 @@ base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& 
   for (const Format& each : kFormats) {
     if (format != each.name) continue;
     auto log = each.read(path, problems);
+    if (log) RemoveScansBeforeTheFirstPose(*log, path, problems);
     if (log) StartAtZero(*log);
     return log;
   }

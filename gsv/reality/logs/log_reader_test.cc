@@ -318,6 +318,18 @@ TEST_F(LogReaderTest, ReadsASonarRing) {
   EXPECT_WITHIN(log.scans[1].base->yaw, geometry::kPi / 4, 1e-12, "rad");
 }
 
+// Without its first scan, the log can be compared: localization starts at the first scan.
+TEST_F(LogReaderTest, IgnoresScansBeforeTheFirstPose) {
+  folder_.Write("poses.txt", "1000 0 0 0\n2000 500 0 900\n");
+  const Log log =
+      Read(folder_.Write("measurement.txt", "900 1 1 1 1 1 1 1 1\n1500 2000 1 1 1 1 1 1 60\n"),
+           "sonar-ring");
+  ASSERT_THAT(log.scans, SizeIs(1));
+  EXPECT_EQ(log.scans[0].ranges[0], 2);
+  EXPECT_WITHIN(log.scans[0].base->x, 0.25, 1e-12, "m");
+  EXPECT_THAT(Problem(0), HasSubstr("ignored 1 scan before the first pose"));
+}
+
 TEST_F(LogReaderTest, RefusesASonarRingInMetres) {
   folder_.Write("poses.txt", "1000 0 0 0\n");
   EXPECT_THAT(
