@@ -313,8 +313,12 @@ async function pressMap() {
 test("a shape is put at a typed position, and an occupied one is refused", async () => {
   const [x, y] = await place("box");
   await press("Shape");
-  await shape().getByLabel("At x (m)").fill(String(x));
-  await shape().getByLabel("At y (m)").fill(String(y));
+  for (const [label, value] of [["At x (m)", x], ["At y (m)", y]]) {
+    await shape().getByLabel(label).click();
+    await page.keyboard.type(String(value));
+    await page.keyboard.press("Tab"); // leaves the field, which keeps its text
+    assert.equal(Number(await shape().getByLabel(label).inputValue()), value);
+  }
   await press("Add shape");
   await page.getByText(/there is no room at .* it would overlap "box"; choose another place/).waitFor();
   await until(() => faults.length > 0, "the refused request");

@@ -347,3 +347,22 @@ test("after an edit of a simulation that was paused before, nothing offers to re
   await control.toggle();
   expect(store.get().notices).toEqual([]);
 });
+
+test("editing does not begin by itself long after a pause that was refused", async () => {
+  vi.useFakeTimers();
+  try {
+    const { store, pause, control } = await editing();
+    await control.toggle();
+    store.set({ status: simulationStatus("running") });
+    pause.mockImplementation(async () => {});
+    const toggled = control.toggle();
+    await vi.advanceTimersByTimeAsync(10_000);
+    await toggled;
+    expect(store.get().notices.at(-1)!.sentence).toBe("The simulation still runs. Pause it to edit it.");
+    store.set({ status: simulationStatus("finished") });
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(store.get().editing).toBeNull();
+  } finally {
+    vi.useRealTimers();
+  }
+});

@@ -18,6 +18,7 @@ const MOST_EDITS = 100;
 const STANDS_M = 1e-6; // an edit that moves a body by less than this only rotates it
 const SHOWN_WITHIN_MS = 10_000;
 const SHOWN_POLL_MS = 20;
+const LONGEST_PAUSE_MS = 10_000;
 const NO_CHOICES: RobotChoices = new Map();
 const PASTED_AT_M = 0.5; // offset of a pasted copy from the original, along x and along y
 
@@ -84,9 +85,12 @@ export class EditControl {
       return this.offerToResume();
     }
     if (!canEdit(this.store.get())) return;
+    const { simulation } = this.store.get();
     this.hasPaused = this.store.get().status?.phase === "running";
     if (this.hasPaused) await this.pause();
-    await this.standsStill();
+    if (!(await this.standsStill())) return notify(this.store, "error", "The simulation still runs. Pause it to edit it.");
+    const now = this.store.get();
+    if (now.editing || now.simulation !== simulation || !canEdit(now)) return;
     this.done = [];
     this.takenBack = [];
     this.copied = [];
@@ -435,11 +439,13 @@ export class EditControl {
   }
 
   // Waits until the stream reports the pause, which may be some time after the server's answer.
-  private standsStill(): Promise<void> {
+  // Returns false if that takes longer than LONGEST_PAUSE_MS: the pause may have been refused.
+  private standsStill(): Promise<boolean> {
     return new Promise((resolve) => {
+      const timer = setTimeout(() => (unwatch(), resolve(false)), LONGEST_PAUSE_MS);
       const unwatch = this.store.watch(
         ({ status, simulation }) => status?.phase !== "running" || simulation === null,
-        (stands) => stands && queueMicrotask(() => (unwatch(), resolve())),
+        (stands) => stands && queueMicrotask(() => (clearTimeout(timer), unwatch(), resolve(true))),
       );
     });
   }

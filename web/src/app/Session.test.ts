@@ -11,6 +11,8 @@ import { Store } from "../state/Store";
 import type { LiveClient } from "./Session";
 import { Session } from "./Session";
 
+const TWENTY_SECONDS: Replay = { start: 0, end: 20, speed: 1, loop: false };
+
 // A server whose answers the test sets, and its stream.
 class Fixture {
   readonly store: Store<State>;
@@ -30,6 +32,8 @@ class Fixture {
     this.store = new Store<State>({ ...initialState, view });
     const api = {
       openRecording: this.openRecording,
+      openPast: async () => (this.replay = TWENTY_SECONDS),
+      leavePast: () => void (this.replay = null),
       seek: this.seek,
       setUp: { abilities: async () => initialState.abilities },
       simulations: async () => this.names.map((name) => ({ name, phase: "running", robots: 0 })),
@@ -223,6 +227,24 @@ test("deaths of behaviours are shown, except those before the page was opened", 
   expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["b (wander): killed"]);
 });
 
+test("after a reset, deaths are shown from the new start on", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.send("/gsv/status", statusMessage("created", { stamp: { sec: 0, nsec: 0 } }));
+  fixture.send("/gsv/events", { stamp: { sec: 3, nsec: 0 }, event: "agent_dead", robot: "a", detail: "a (wander): killed" });
+  expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["a (wander): killed"]);
+});
+
+test("the past has its events, and the page returns to a live run", async () => {
+  const fixture = await joined(new Fixture());
+  await vi.waitFor(() => expect(fixture.state.isLive).toBe(true));
+  await fixture.session.enterPast();
+  await vi.waitFor(() => expect(fixture.state.events).toHaveLength(1));
+  expect(fixture.state).toMatchObject({ isLive: false, inPast: true, replay: TWENTY_SECONDS });
+  fixture.session.goLive();
+  await vi.waitFor(() => expect(fixture.state.isLive).toBe(true));
+  expect(fixture.state).toMatchObject({ inPast: false, replay: null, events: [] });
+});
+
 test("a recording is recognised by its status, and its events are fetched", async () => {
   const fixture = new Fixture();
   fixture.replay = { start: 0, end: 9, speed: 1, loop: true };
@@ -245,8 +267,6 @@ test("the reason of a failure is fetched when the stream reports the failure", a
   fixture.send("/gsv/status", statusMessage("failed"));
   await vi.waitFor(() => expect(fixture.state.status?.failure).toBe("a's behaviour was killed"));
 });
-
-const TWENTY_SECONDS: Replay = { start: 0, end: 20, speed: 1, loop: false };
 
 test("a recording is opened for this page only before other requests, and a missing one is reported", async () => {
   const fixture = new Fixture(null, "run.mcap");

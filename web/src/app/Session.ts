@@ -100,6 +100,9 @@ export class Session implements TopicSource, LiveViewSource {
   // If the page changes between a run and its past, a closed stream does not mean a lost
   // connection.
   private isSwitching = false;
+  // Whether the status in the store describes another run than the stream that is being opened: the
+  // run instead of its past, or the reverse.
+  private isStatusOfOther = false;
   private readonly topicRequests: TopicRequests;
 
   constructor(
@@ -127,7 +130,7 @@ export class Session implements TopicSource, LiveViewSource {
 
   join(name: string): void {
     this.leave();
-    this.wasOpen = false;
+    this.wasOpen = this.isStatusOfOther = false;
     this.sceneText = "";
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
@@ -161,7 +164,7 @@ export class Session implements TopicSource, LiveViewSource {
   private switchStream(simulation: string, change: Partial<State>): void {
     this.leave();
     this.wasOpen = false;
-    this.isSwitching = true;
+    this.isSwitching = this.isStatusOfOther = true;
     this.store.set(change);
     this.connect(simulation);
   }
@@ -219,6 +222,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.store.set({ status: { ...status, failure }, time: status.time });
     if (status.phase !== "finished" && status.phase !== "failed" && this.store.get().endSeen) this.store.set({ endSeen: false });
     this.takeReplay(status);
+    // After a reset, the simulated time starts again, and its events are new.
+    if (this.newsSince !== Infinity) this.newsSince = Math.min(this.newsSince, status.time);
   }
 
   // The stream does not report whether this is a replay, but the API does. The stream reports the
@@ -344,13 +349,14 @@ export class Session implements TopicSource, LiveViewSource {
   }
 
   private async opened(name: string): Promise<void> {
-    const isFirst = !this.wasOpen;
+    const isFetched = !this.wasOpen && !this.isStatusOfOther;
+    this.isStatusOfOther = false;
     if (this.wasOpen) notify(this.store, "note", "Connected again.");
     this.wasOpen = true;
     const instant = this.instant;
     this.instant = null;
     const { scene, status } = this.store.get();
-    if (isFirst && instant === null && scene && status && status.phase !== "failed") {
+    if (isFetched && instant === null && scene && status && status.phase !== "failed") {
       // The scene and the status have just been fetched. The stream reports all later changes.
       this.newsSince = status.time;
       return this.topicRequests.lookSoon();
@@ -426,9 +432,10 @@ export class Session implements TopicSource, LiveViewSource {
   }
 
   private async fetchStatus(name: string): Promise<void> {
+    const { client } = this;
     try {
       const status = await this.api.status(name);
-      if (this.store.get().simulation !== name) return;
+      if (this.store.get().simulation !== name || this.client !== client) return;
       this.takeStatus(status);
       this.store.set({ isLive: status.replay === null });
       this.newsSince = Math.min(this.newsSince, status.time);
@@ -439,8 +446,9 @@ export class Session implements TopicSource, LiveViewSource {
   }
 
   private async fetchEvents(name: string): Promise<void> {
+    const { client } = this;
     const events = await this.api.events(name).catch(() => []); // the timeline is useful without events, too
-    if (this.store.get().simulation === name) this.store.set({ events });
+    if (this.store.get().simulation === name && this.client === client) this.store.set({ events });
   }
 
   // Handles an event. A new subscription also delivers past events; only later events are shown as

@@ -20,7 +20,7 @@ export function createModelForm(app: App, onAdd: () => void): HTMLElement {
   const model = choiceField("Model", () => offerBehaviour());
   const behaviour = choiceField("Behaviour", () => {});
   let driveText = "";
-  const drive = textField("Drive", "default: drive of the model, else guessed from its wheels", (text) => (driveText = text));
+  const drive = textField("Drive", "default: drive of the model, else guessed from its wheels", (text) => drive.show((driveText = text)));
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
   const add = element("button", { class: "button", type: "button" }, "Add");
   add.addEventListener("click", () => {

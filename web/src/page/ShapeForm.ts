@@ -36,7 +36,11 @@ export function createShapeForm(app: App, onAdd: () => void): HTMLElement {
   const isStatic = checkField("Static", (value) => change({ isStatic: value }));
   const colour = colourField("Colour", (value) => change({ colour: value }));
   const at: { x: number | null; y: number | null } = { x: null, y: null };
-  const atFields = (["x", "y"] as const).map((axis) => numberField(`At ${axis} (m)`, null, (value) => (at[axis] = value)));
+  const atField = (axis: "x" | "y") => {
+    const field = numberField(`At ${axis} (m)`, null, (value) => field.show((at[axis] = value)));
+    return field;
+  };
+  const atFields = [atField("x"), atField("y")];
   const hint = element(
     "p",
     { class: "hint" },

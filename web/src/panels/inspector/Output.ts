@@ -75,6 +75,8 @@ class OutputReader {
 
   private take({ stamp, level, name, msg }: LogMessage): void {
     const time = seconds(stamp);
+    // After a reset, the simulated time starts again. A line may be a little newer than the clock.
+    if (this.ports.state.get().time < this.newest - 1) this.newest = -Infinity;
     const robot = this.ports.state.get().status?.robots.find((each) => each.name === this.robot);
     const behaviour = robot?.behaviour.split(" ")[0]; // the behaviour's name without its options
     if ((name === this.robot || (behaviour && name === behaviour)) && time > this.newest) this.add({ time, level, text: msg });

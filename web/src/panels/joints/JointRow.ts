@@ -118,7 +118,7 @@ export class JointRow {
 
   private rangeOf({ minimum, maximum, maxVelocity }: Joint): [number, number] {
     if (this.kind === "position") return [minimum, maximum];
-    const fastest = Math.min(maxVelocity, USUAL_VELOCITY);
+    const fastest = Number.isFinite(maxVelocity) ? maxVelocity : USUAL_VELOCITY;
     return [-fastest, fastest];
   }
 }

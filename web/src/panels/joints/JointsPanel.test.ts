@@ -83,6 +83,47 @@ test("the slider of a joint without limits sets its velocity, and a button stops
   end();
 });
 
+test("the velocity of a joint can be set up to its limit", async () => {
+  const { commandJoint, end } = await opened({
+    joints: [{ ...ELBOW, kind: "continuous", minimum: -Infinity, maximum: Infinity, maxVelocity: 10 }],
+  });
+  const field = document.querySelector<HTMLInputElement>('input[type="number"]')!;
+  field.value = "5";
+  field.dispatchEvent(new Event("change"));
+  await vi.advanceTimersByTimeAsync(1);
+  expect(commandJoint).toHaveBeenLastCalledWith("house", "arm", "elbow", "velocity", 5);
+  end();
+});
+
+test("the reason of a refused command stays until a command is accepted", async () => {
+  const { commandJoint, slider, end } = await opened({});
+  const note = () => document.querySelector(".joints-note")!.textContent;
+  const move = async (value: string) => {
+    slider().value = value;
+    slider().dispatchEvent(new Event("input"));
+    await vi.advanceTimersByTimeAsync(1000);
+  };
+  commandJoint.mockRejectedValueOnce(new Error("this token may only watch"));
+  await move("1.2");
+  expect(note()).toBe("this token may only watch");
+  await move("1.1");
+  expect(note()).toBe("");
+  end();
+});
+
+test("a body that is added while the panel is open is shown", async () => {
+  const { joints, store, end } = await opened({});
+  const bodies = store.get().scene!.bodies;
+  store.set({ scene: scene({ bodies: [] }) });
+  await vi.advanceTimersByTimeAsync(2000);
+  const asked = joints.mock.calls.length;
+  store.set({ scene: scene({ bodies }) });
+  await vi.advanceTimersByTimeAsync(2000);
+  expect(joints.mock.calls.length).toBeGreaterThan(asked);
+  expect(document.querySelector(".joint-state")!.textContent).toBe("0.785 rad, 0.000 rad/s");
+  end();
+});
+
 test("the panel shows why a body or a joint takes no commands, and disables the slider", async () => {
   const { slider, end, joints } = await opened({ refusal: "'arm' is controlled by its behaviour" });
   expect(document.querySelector(".joints-note")!.textContent).toBe("'arm' is controlled by its behaviour");

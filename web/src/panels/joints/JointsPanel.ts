@@ -30,11 +30,12 @@ export function mount({ state, control }: Ports): MountedPanel {
   let names = "";
   let time = 0; // time of the last report, s
 
-  const problem = (sentence: string) => setText(note, sentence);
+  let refusedWith = ""; // why the last command was refused
+  const problem = (sentence: string) => setText(note, (refusedWith = sentence));
   const command = (joint: string, kind: "position" | "velocity", value: number): Promise<void> => {
     const { simulation } = state.get();
     if (simulation === null || body === null) return Promise.resolve();
-    return control.commandJoint(simulation, body, joint, kind, value);
+    return control.commandJoint(simulation, body, joint, kind, value).then(() => void (refusedWith = ""));
   };
   const show = (told: BodyJoints) => {
     const now = JSON.stringify([body, told.joints.map(({ name }) => name)]);
@@ -49,10 +50,10 @@ export function mount({ state, control }: Ports): MountedPanel {
     if (told.time < time) for (const row of rows) row.forget(); // the simulation was reset
     time = told.time;
     rows.forEach((row, i) => row.show(told.joints[i]!, { isRefused, isPaused, inDegrees: degrees.checked }));
-    setText(note, told.refusal || (told.joints.length === 0 ? "This body has no joint that accepts commands." : ""));
+    setText(note, told.refusal || refusedWith || (told.joints.length === 0 ? "This body has no joint that accepts commands." : ""));
   };
   const forget = (sentence: string) => {
-    names = "";
+    names = refusedWith = "";
     rows = [];
     list.replaceChildren();
     setText(note, sentence);
@@ -62,12 +63,13 @@ export function mount({ state, control }: Ports): MountedPanel {
   const ask = async () => {
     const { simulation } = state.get();
     const asked = body;
-    if (simulation === null || asked === null) return;
-    try {
-      const told = await control.joints(simulation, asked);
-      if (asked === body && timer !== undefined) show(told);
-    } catch (error) {
-      if (asked === body) setText(note, (error as Error).message);
+    if (simulation !== null && asked !== null) {
+      try {
+        const told = await control.joints(simulation, asked);
+        if (asked === body && timer !== undefined) show(told);
+      } catch (error) {
+        if (asked === body) setText(note, (error as Error).message);
+      }
     }
     if (timer === undefined) return;
     clearTimeout(timer);

@@ -56,3 +56,13 @@ test("a log that cannot be read is reported", async () => {
     expect(ports.notices.notify).toHaveBeenCalledWith("error", "Cannot read the log: no such file"),
   );
 });
+
+test("a reset removes the lines of the earlier run, so that equal lines of the new run are shown", () => {
+  const { topics, lines } = feeding();
+  for (let run = 0; run < 2; run++) {
+    topics.send("/rosout", message(3, "agent dead"));
+    topics.send("/rosout", { ...message(0, "reset"), name: "gsv" });
+  }
+  topics.send("/rosout", message(3, "agent dead"));
+  expect(lines().map(({ text }) => text)).toEqual(["reset", "agent dead"]);
+});

@@ -43,7 +43,9 @@ export class LogFeed {
 
   private take({ stamp, level, name, msg }: LogMessage): void {
     const line = { time: seconds(stamp), level, name, text: msg };
-    this.store.set(({ lines }) => ({ lines: withLine(lines, line) }));
+    // After a reset, the simulated time starts again. The lines of the earlier run are removed.
+    const isReset = name === "gsv" && msg === "reset";
+    this.store.set(({ lines }) => ({ lines: withLine(isReset ? NO_LOG.lines : lines, line) }));
   }
 
   private async fetch(simulation: string): Promise<void> {

@@ -24,6 +24,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   let isOpen = false;
   let end = () => {};
   let newest: unknown;
+  let shown: unknown; // the message in the tree: the newest one, or the frozen one
   let arrived = -Infinity; // ms
   let timer: ReturnType<typeof setTimeout> | undefined;
   const tree = new MessageTree({
@@ -42,7 +43,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
     if (!isPaused) draw();
   });
   pause.setAttribute("aria-pressed", "false");
-  const copyAll = button("copy", "Copy the message as JSON", () => newest !== undefined && copy("Message copied.", jsonOf(newest)));
+  const copyAll = button("copy", "Copy the message as JSON", () => shown !== undefined && copy("Message copied.", jsonOf(shown)));
   const copyName = button("link", "Copy the name of the topic", () => chosen !== null && void notices.copy(chosen, "Name copied."));
   const message = element(
     "div",
@@ -58,15 +59,17 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   const draw = () => {
     timer = undefined;
     const isThere = newest !== undefined;
-    if (isThere && !isPaused) tree.show(newest);
-    const stamp = stampOf(newest);
+    if (isThere && !(isPaused && shown !== undefined)) tree.show((shown = newest));
+    const stamp = stampOf(shown);
     const isOffered = chosen === null || state.get().topics.some(({ name }) => name === chosen);
     setText(note, noteOf(isOffered, isThere, performance.now() - arrived, stamp));
   };
   const listen = () => {
     end();
     end = () => {};
-    newest = undefined;
+    newest = shown = undefined;
+    isPaused = false;
+    pause.setAttribute("aria-pressed", "false");
     tree.clear();
     setText(title, chosen ?? "");
     title.hidden = chosen === null;

@@ -49,6 +49,25 @@ test("the newest message of the selected topic is shown as a tree, and read only
   expect(topics.read).toEqual([]);
 });
 
+test("a frozen message keeps its time and is the one that is copied, and another topic is not frozen", () => {
+  const { topics, ports, choose, press, lines, body } = opened();
+  choose("/gsv/status");
+  const send = (topic: string, v: number) => {
+    topics.send(topic, { stamp: { sec: v, nsec: 0 }, v });
+    vi.advanceTimersByTime(250);
+  };
+  send("/gsv/status", 10);
+  press("Freeze this message");
+  send("/gsv/status", 25);
+  expect(lines()).toContain("v10");
+  expect(body.querySelector('[role="status"]')!.textContent).toBe("At 0:10.00");
+  press("Copy the message as JSON");
+  expect(ports.notices.copy).toHaveBeenLastCalledWith(expect.stringContaining('"v": 10'), "Message copied.");
+  choose("/a/scan");
+  send("/a/scan", 30);
+  expect(lines()).toContain("v30");
+});
+
 test("a field is plotted and copied by its path", () => {
   const { topics, ports, choose, press, body } = opened();
   choose("/gsv/status");

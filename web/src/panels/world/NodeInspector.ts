@@ -134,8 +134,9 @@ export class NodeInspector {
     let timer: ReturnType<typeof setTimeout> | undefined;
     const ask = async () => {
       const { simulation, replay } = this.ports.state.get();
-      if (simulation === null || replay) return;
-      const told = await this.ports.control.joints(simulation, body.name).catch(() => null);
+      // A replay has no values of joints. The page may return to the running simulation.
+      const isAsked = simulation !== null && !replay;
+      const told = isAsked ? await this.ports.control.joints(simulation, body.name).catch(() => null) : null;
       const found = told?.joints.find(({ name }) => name === joint);
       if (!isOn) return;
       if (found) {
