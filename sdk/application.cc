@@ -1,5 +1,7 @@
 #include "sdk/application.h"
 
+#include <cstdio>
+
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
@@ -199,8 +201,16 @@ class SimulationProxy final : public RemoteSimulation {
         return Lose("it has not responded for too long");
       }
     }
-    if (phase == sba::PHASE_PAUSED || phase == sba::PHASE_FINISHED) return {};
     auto state = State();
+    if (phase == sba::PHASE_PAUSED || phase == sba::PHASE_FINISHED) {
+      if (!state) return base::Fail(state.error());
+      if (state->time >= until) return {};
+      char times[80];
+      std::snprintf(times, sizeof times, "at %g s, before %g s", base::ToSeconds(state->time),
+                    base::ToSeconds(until));
+      return base::Fail(base::ErrorCode::kEnded,
+                        std::string("the simulation is ") + Text(phase) + " " + times, server_);
+    }
     return base::Fail(base::ErrorCode::kEnded,
                       std::string("the simulation is ") + Text(phase) +
                           (state && !state->failure.empty() ? ": " + state->failure : ""),

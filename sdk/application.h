@@ -99,7 +99,8 @@ class RemoteSimulation {
                                const std::map<std::string, std::string>& arguments = {}) = 0;
   // Runs until the instant and pauses there. Blocks until then, at most for `timeout` of wall-clock
   // time. Calls `keep_waiting` at least every two seconds. If `keep_waiting` returns false, this
-  // function returns kEnded and the run continues.
+  // function returns kEnded and the run continues. Also returns kEnded if the run is paused by
+  // someone else, or ends, before the instant.
   virtual base::Status RunUntil(SimTime until,
                                 std::chrono::seconds timeout = std::chrono::minutes(10),
                                 const std::function<bool()>& keep_waiting = {}) = 0;

@@ -43,13 +43,17 @@ class WorldEngine final : public Engine {
       actors_.Move(step, state, nullptr);
       planar_->Step(step, state, contacts);
     }
-    MovePlanarJoints(*layout_, base::ToSeconds(step), state);
+    if (has_followers_ || !state.joint_commands.empty()) {
+      MovePlanarJoints(*layout_, base::ToSeconds(step), state);
+    }
   }
 
   bool StepMany(base::SimTime step, int count, world::State& state,
                 std::vector<world::Contact>& contacts, MotionFollower& follower) override {
     UseAttachments();
-    if (rigid_->has_bodies() || has_people_ || !state.joint_commands.empty()) return false;
+    if (rigid_->has_bodies() || has_people_ || has_followers_ || !state.joint_commands.empty()) {
+      return false;
+    }
     return planar_->StepMany(step, count, state, contacts, follower);
   }
 
@@ -75,6 +79,13 @@ class WorldEngine final : public Engine {
     has_people_ = std::any_of(layout->bodies.begin(), layout->bodies.end(), [](const auto& body) {
       return body.is_actor() || body.is_pedestrian();
     });
+    has_followers_ =
+        std::any_of(layout->bodies.begin(), layout->bodies.end(), [](const world::Body& body) {
+          const auto& joints = body.model->joints;
+          return body.is_planar() &&
+                 std::any_of(joints.begin(), joints.end(),
+                             [](const model::Joint& joint) { return joint.mimic.has_value(); });
+        });
     actors_.SetLayout(layout);
     crowd_.SetLayout(layout);
     if (auto ok = pushes_.SetLayout(layout); !ok) return ok;
@@ -144,6 +155,7 @@ class WorldEngine final : public Engine {
   AttachedLayout attached_;
   std::shared_ptr<const world::Layout> layout_;  // the layout with the attached bodies
   bool has_people_ = false;                      // whether there are actors or pedestrians
+  bool has_followers_ = false;                   // whether a planar robot has a mimic joint
   ActorMover actors_;
   Crowd crowd_;
   std::unique_ptr<PlanarMover> planar_;

@@ -126,6 +126,47 @@ TEST(Grippers, GraspedBodyMovesWithTheRobotUntilTheFingersOpen) {
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
 
+// The gripper is on a lift that rises at 0.5 m/s from 1 s to 2 s. Then it lets the post go.
+TEST(Grippers, GraspedBodyHasTheVelocityOfTheGripper) {
+  auto simulation = WithPosts(3s, {Post("post", 0.25, 0)});
+  auto lifts = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
+    ASSERT_TRUE(agent.CommandDevice("gripper", {{0}, ""}));
+    if (!SleepFor(agent, clock, 1s)) return;
+    ASSERT_TRUE(agent.CommandJoint(0, {world::JointCommand::Kind::kVelocity, 0.5}));
+    if (!SleepFor(agent, clock, 1s)) return;
+    ASSERT_TRUE(agent.CommandDevice("gripper", {{1}, ""}));
+    while (SleepFor(agent, clock, 1s)) {
+    }
+  });
+  RobotSpecification robot = RobotWithGripper("robot", 0, 0, std::move(lifts));
+  auto model = std::make_shared<model::Model>(*robot.model);
+  model->links.push_back({});
+  model::Joint lift;
+  lift.name = "lift";
+  lift.kind = model::JointKind::kPrismatic;
+  lift.parent = 0;
+  lift.child = 1;
+  lift.axis = {0, 0, 1};
+  lift.position_limits = {0, 2};
+  model->joints.push_back(lift);
+  model->sensors.back().link = 1;
+  robot.model = model;
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  const auto velocity = [&] {
+    const auto snapshot = simulation->snapshot();
+    return snapshot->state.bodies[static_cast<std::size_t>(snapshot->layout->Find("post"))]
+        .linear_velocity.z;
+  };
+  RunTo(*simulation, 1500ms);
+  ASSERT_EQ(HeldBy(*simulation, "robot"), "post");
+  EXPECT_WITHIN(velocity(), 0.5, 1e-9, "m/s");
+  const double height = PoseOf(*simulation, "post").position.z;
+  RunTo(*simulation, 2s);
+  EXPECT_WITHIN(PoseOf(*simulation, "post").position.z - height, 0.25, 1e-9, "m");
+  RunTo(*simulation, 2100ms);
+  EXPECT_WITHIN(velocity(), 0.5 - 9.8 * 0.1, 0.11, "m/s");
+}
+
 TEST(Grippers, CloseWithoutGraspingIfThereIsNoDynamicBody) {
   auto simulation = WithPosts(0s, {Post("post", -1, 0)});
   ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("at_wall", 2.65, 0, Fetches({}, false))));

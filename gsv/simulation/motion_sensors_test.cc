@@ -155,6 +155,25 @@ TEST(MotionSensors, ABumperDetectsTheWall) {
   EXPECT_NEAR(driven.values[3], 1, 1e-6);
 }
 
+// The altimeter is on a lift, 0.1 m above its link, which starts 0.3 m above its zero position.
+TEST(MotionSensors, AltimeterMeasuresFromTheStartOfItsJoints) {
+  auto model = Rover("altimeter");
+  model->links.push_back({});
+  model::Joint lift;
+  lift.name = "lift";
+  lift.kind = model::JointKind::kPrismatic;
+  lift.parent = 0;
+  lift.child = 3;
+  lift.axis = {0, 0, 1};
+  lift.position_limits = {0, 1};
+  model->joints.push_back(lift);
+  model->sensors.front().link = 3;
+  model->start_positions = {0, 0, 0.3};
+  const Driven driven = Drive(model, {{{0.1, 0, 0}, 100ms}});
+  EXPECT_WITHIN(driven.values[0], 0, 1e-12, "m");
+  EXPECT_WITHIN(driven.values[2], 0.4, 1e-12, "m");
+}
+
 TEST(MotionSensors, BatteryDischargesWhileDriving) {
   const Driven driven = Drive(Rover("battery"), {{{0.5, 0, 0}, 4s}});
   ASSERT_EQ(driven.values.size(), 5u);

@@ -77,5 +77,59 @@ TEST(Placing, ARobotAddedDuringAPauseDrivesAfterIt) {
   EXPECT_NEAR(PositionOf(*simulation, "second").x, 0.25, 1e-9);
 }
 
+// Returns a disc with a sensor that samples at 10 Hz, and one whose samples of 2 Hz come 0.5 s late.
+std::shared_ptr<model::Model> DiscWithSlowSensors() {
+  auto model = std::make_shared<model::Model>(*Disc(0.2));
+  for (const double rate : {10.0, 2.0}) {
+    model::SensorDescription sensor;
+    sensor.name = rate == 10 ? "quick" : "late";
+    sensor.type = "positioning";
+    sensor.update_rate = rate;
+    if (rate == 2) sensor.parameters["latency"] = 0.5;
+    model->sensors.push_back(sensor);
+  }
+  return model;
+}
+
+TEST(Placing, TheSamplesOfOtherRobotsStayAsTheyAre) {
+  auto simulation = Make(Lockstep(3s));
+  RobotSpecification robot = Robot("robot", 0, 0, Drives(0.5));
+  robot.model = DiscWithSlowSensors();
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  ASSERT_TRUE(simulation->AddRobot(Robot("other", 0, 4)));
+  const auto times = [&] {
+    const auto quick = simulation->Watch("robot", "quick"),
+               late = simulation->Watch("robot", "late");
+    return std::pair(quick->time, late->time);
+  };
+  RunUntilPaused(*simulation, 1250ms);
+  EXPECT_EQ(times(), std::pair(SimTime(1200ms), SimTime(500ms)));
+  ASSERT_TRUE(simulation->PlaceBody("other", PlanarPose(0, -4, 0, 0), true));
+  ASSERT_TRUE(simulation->AddRobot(Robot("a", 0, 2)));
+  EXPECT_EQ(times(), std::pair(SimTime(1200ms), SimTime(500ms)));
+  RunUntilPaused(*simulation, 1550ms);
+  EXPECT_EQ(times(), std::pair(SimTime(1500ms), SimTime(1000ms)));
+  EXPECT_NEAR(simulation->Watch("robot", "late")->values[0], 0.5, 1e-9);
+}
+
+TEST(Placing, ARobotAtAWallStillTouchesIt) {
+  auto simulation = Make(Lockstep(9s));
+  RobotSpecification robot = Robot("robot", 2.5, 0, Drives(0.5));
+  auto model = std::make_shared<model::Model>(*robot.model);
+  model::SensorDescription bumper;
+  bumper.name = bumper.type = "contact";
+  model->sensors.push_back(bumper);
+  robot.model = model;
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  ASSERT_TRUE(simulation->AddRobot(Robot("other", 0, 4)));
+  RunUntilPaused(*simulation, 2s);
+  const auto touched = [&] { return *simulation->Watch("robot", "contact")->labels; };
+  ASSERT_EQ(touched(), std::vector<std::string>{"wall"});
+  ASSERT_TRUE(simulation->PlaceBody("other", PlanarPose(0, -4, 0, 0), true));
+  EXPECT_EQ(touched(), std::vector<std::string>{"wall"});
+  ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(0, 0, 0, 0), true));
+  EXPECT_EQ(touched(), std::vector<std::string>{});
+}
+
 }  // namespace
 }  // namespace gsv::simulation

@@ -31,6 +31,7 @@ void Add(const BodyState& body, base::Hash& hash) {
   hash.Add(place.x), hash.Add(place.y), hash.Add(place.cosine), hash.Add(place.sine);
   hash.Add(body.odometry.linear), hash.Add(body.odometry.angular);
   hash.Add(body.distance);
+  if (body.since.count() != 0) hash.Add(static_cast<std::int64_t>(body.since.count()));
   hash.Add(body.collisions);
   hash.Add(std::uint64_t{body.in_contact});
 }

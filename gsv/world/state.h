@@ -52,7 +52,8 @@ struct BodyState {
   geometry::Vector3 angular_velocity;
   DriveState drive;
   Odometry odometry;
-  double distance = 0;  // distance that the model's origin has travelled, m
+  double distance = 0;     // distance that the model's origin has travelled, m
+  base::SimTime since{0};  // time at which the body was added
   // number of contacts that began (a contact counts once, even if it lasts many steps)
   std::uint64_t collisions = 0;
   // Whether the robot touched a body other than the ground in the last step.

@@ -51,6 +51,23 @@ TEST_F(ASimulator, RunsTheScenarioOfATest) {
   EXPECT_EQ(state->time, std::chrono::seconds(1));
 }
 
+TEST_F(ASimulator, ReportsAPauseBeforeTheInstant) {
+  auto simulation = simulator().Create({.world = "playground", .lockstep = false});
+  ASSERT_TRUE(simulation) << simulation.error().Sentence();
+  bool is_paused = false;
+  const auto pause = [&] {
+    if (!is_paused) {
+      EXPECT_TRUE((*simulation)->Pause());
+    }
+    return is_paused = true;
+  };
+  const auto ran = (*simulation)->RunUntil(1h, 60s, pause);
+  ASSERT_FALSE(ran);
+  EXPECT_EQ(ran.error().code, base::ErrorCode::kEnded);
+  EXPECT_NE(ran.error().message.find("the simulation is paused at "), std::string::npos)
+      << ran.error().message;
+}
+
 // A behaviour that sends the width of the image of its wide-angle camera to `seen`.
 class Looks final : public Behaviour {
  public:

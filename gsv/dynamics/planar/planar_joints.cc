@@ -38,10 +38,10 @@ void MoveFollowers(const world::Body& body, double seconds, world::State& state)
 }  // namespace
 
 void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state) {
-  if (state.joint_commands.empty()) return;
+  const bool is_commanded = !state.joint_commands.empty();
   for (const world::Body& body : layout.bodies) {
     if (!body.is_planar()) continue;
-    for (std::size_t j = 0; j < body.model->joints.size(); ++j) {
+    for (std::size_t j = 0; is_commanded && j < body.model->joints.size(); ++j) {
       const auto at = static_cast<std::size_t>(body.first_joint) + j;
       const world::JointCommand& command = state.joint_commands[at];
       if (command.kind == Kind::kNone && state.joint_velocities[at] == 0) continue;

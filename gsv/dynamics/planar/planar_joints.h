@@ -5,7 +5,8 @@
 //              stops. Without a velocity limit, it is at the position at once. A joint with a
 //              velocity command moves at this velocity. Both stay within the joint's limits.
 //              Obstacles do not stop a joint, and a joint pushes nothing: the robot's footprint
-//              always has all joints at zero.
+//              always has all joints at zero. A mimic joint is at the position that follows from
+//              its leader, which may be a wheel.
 // Determinism  a function of only the layout, the state and the step.
 #pragma once
 
@@ -13,7 +14,7 @@
 
 namespace gsv::dynamics {
 
-// Moves the commanded joints of all planar robots by one step.
+// Moves the commanded joints and the mimic joints of all planar robots by one step.
 void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state);
 
 }  // namespace gsv::dynamics

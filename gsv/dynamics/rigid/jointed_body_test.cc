@@ -145,6 +145,24 @@ TEST(JointedBody, FrictionHoldsAJoint) {
   EXPECT_WITHIN(world.joint("slider", 0), 0, 1e-6, "m");
 }
 
+TEST(JointedBody, FrictionSlowsDownAMotorOfLimitedEffort) {
+  using Kind = world::JointCommand::Kind;
+  constexpr double kEffort = 3, kTime = 0.1;
+  for (const double friction : {0.0, 1.0, 5.0}) {
+    auto model = Hanging(model::JointKind::kPrismatic, 0, {1, 0, 0});
+    model->joints[0].friction = friction;
+    model->joints[0].effort_limit = kEffort;
+    const double mass = model->links[0].inertial.mass;
+    TestWorld world(MakeWorldEngine());
+    world.AddRigid("slider", model, At(0, 0, 5));
+    ASSERT_TRUE(world.Start());
+    world.CommandJoint("slider", 0, {Kind::kVelocity, 100});
+    world.Run(kTime, 0.001);
+    const double expected = std::max(0.0, kEffort - friction) / mass * kTime;
+    EXPECT_WITHIN(world.joint_velocity("slider", 0), expected, 1e-6, "m/s") << friction;
+  }
+}
+
 TEST(JointedBody, JointReachesItsCommandedPosition) {
   using Kind = world::JointCommand::Kind;
   TestWorld world(MakeWorldEngine());

@@ -90,6 +90,19 @@ TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {
   EXPECT_NEAR(world.joint("robot", 1), -0.4, 1e-12);
 }
 
+TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeaderWithoutACommand) {
+  auto model = Fingers({.leader = 0, .multiplier = -1, .offset = 0.3});
+  model->joints.erase(model->joints.begin());
+  model->joints[1].mimic->leader = 0;
+  model->drive = model::Drive{};
+  TestWorld world(MakeWorldEngine());
+  world.AddRobot("robot", model, {});
+  ASSERT_TRUE(world.Start());
+  world.state().joint_positions[0] = 0.1;
+  world.Run(0.1, 0.01);
+  EXPECT_NEAR(world.joint("robot", 1), 0.2, 1e-12);
+}
+
 TEST(Mimic, MimicJointRejectsCommands) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("gripper", Fingers({1, 1, 0, 0}), At(0, 0, 1));

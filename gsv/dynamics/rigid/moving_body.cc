@@ -193,6 +193,8 @@ void MovingBody::AddMotor(const Motor& motor, double seconds) {
     AddPush(motor, 0, seconds);
   } else if (command.kind == CommandKind::kVelocity || command.kind == CommandKind::kPosition) {
     AddRow(motor, rate, std::min(joint.effort_limit, kNoLimit) * seconds);
+    // Friction does not slow down a motor whose effort has no limit.
+    if (joint.effort_limit < kNoLimit) AddPush(motor, 0, seconds);
   } else {
     AddPush(motor, force, seconds);
   }

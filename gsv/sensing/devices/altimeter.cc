@@ -44,9 +44,12 @@ class Altimeter final
   }
 
   double Start(const world::Body& robot) const {
-    const geometry::Pose model_from_sensor =
-        robot.model->links[description().link].model_from_link * description().link_from_sensor;
-    return (robot.initial_pose * model_from_sensor).position.z;
+    const model::Model& model = *robot.model;
+    const auto link = static_cast<std::size_t>(description().link);
+    const geometry::Pose model_from_link =
+        model.start_positions.empty() ? model.links[link].model_from_link
+                                      : world::LinkPoses(model, model.start_positions)[link];
+    return (robot.initial_pose * model_from_link * description().link_from_sensor).position.z;
   }
 
   const double reference_;  // NaN if the reference is the initial height

@@ -37,7 +37,7 @@ class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::
     const world::State& state = sampling.snapshot()->state;
     const world::BodyState& body = state.bodies[sampling.body()];
     const double drawn =
-        idle_current_ * base::ToSeconds(state.time) + drive_charge_ * body.distance;
+        idle_current_ * base::ToSeconds(state.time - body.since) + drive_charge_ * body.distance;
     const double charge = std::max(0.0, initial_ * capacity_ - drawn / kSecondsAnHour);
     const double fraction = charge / capacity_;
     const double current =

@@ -452,6 +452,9 @@ TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
       Sent<messages::sensor_msgs::BatteryState>(DescriptionOf("battery", parameters));
   EXPECT_EQ(message.current, -4);
   EXPECT_EQ(message.percentage, 0.5f);
+  // The robot was added after a quarter of an hour.
+  body().since = std::chrono::minutes(15);
+  ExpectValues(Sample(DescriptionOf("battery", parameters)), {11.25 - 0.5 * 4, 4, 1.25, 2, 0.625});
   body().distance = 1e6;
   ExpectValues(Sample(DescriptionOf("battery", parameters)), {0, 0, 0, 2, 0});
 }

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "gsv/sensing/devices/link_motion.h"
+
 namespace gsv::sensing {
 namespace {
 
@@ -147,19 +149,13 @@ void GripperState::MoveFingers(const world::Body& robot, base::SimTime time,
 
 void GripperState::MoveAttachedBody(const world::Layout& layout, int robot,
                                     world::State& state) const {
-  const world::Body& holder = layout.bodies[static_cast<std::size_t>(robot)];
-  const world::BodyState& carrier = state.bodies[static_cast<std::size_t>(robot)];
   world::BodyState& held = state.bodies[static_cast<std::size_t>(layout.Find(hold_->grasp.held))];
-  const std::vector<Pose> robot_from_links = world::LinkPoses(
-      *holder.model,
-      std::span(state.joint_positions)
-          .subspan(static_cast<std::size_t>(holder.first_joint), holder.model->joints.size()));
-  const Pose& robot_from_link = robot_from_links[static_cast<std::size_t>(mount().link)];
   const Pose before = held.world_from_model;
-  held.world_from_model = carrier.world_from_model * robot_from_link * hold_->grasp.link_from_held;
-  const Vector3 arm = held.world_from_model.position - carrier.world_from_model.position;
-  held.linear_velocity = carrier.linear_velocity + Cross(carrier.angular_velocity, arm);
-  held.angular_velocity = carrier.angular_velocity;
+  LinkMotion motion = MotionOfLink(layout, state, robot, mount().link);
+  held.world_from_model = motion.world_from_link * hold_->grasp.link_from_held;
+  motion.MoveTo(held.world_from_model.position);
+  held.linear_velocity = motion.velocity;
+  held.angular_velocity = motion.angular_velocity;
   held.distance += Norm(held.world_from_model.position - before.position);
   held.in_contact = false;
 }

@@ -1,6 +1,7 @@
 #include "gsv/sensing/devices/link_motion.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace gsv::sensing {
@@ -26,33 +27,61 @@ void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& ar
   motion.acceleration += travel * (acceleration * axis + 2 * rate * Cross(around, axis));
 }
 
-// Returns the motion of the links above all joints, at the origin of the model.
-LinkMotion MotionOfBase(const world::Snapshot& snapshot, int body) {
-  const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
-  LinkMotion base;
-  base.place = state.world_from_model.position;
-  base.velocity = state.linear_velocity;
-  base.angular_velocity = state.angular_velocity;
-  if (!snapshot.accelerations.empty()) {
-    const world::Acceleration& mean = snapshot.accelerations[static_cast<std::size_t>(body)];
-    base.acceleration = mean.linear;
-    base.angular_acceleration = mean.angular;
+// The state of a body. Without accelerations, the spans are empty.
+struct Source {
+  Source(const world::Layout& layout, const world::State& all, int index)
+      : body(layout.bodies[static_cast<std::size_t>(index)]),
+        state(all.bodies[static_cast<std::size_t>(index)]),
+        joint_positions(OfJoints(all.joint_positions)),
+        joint_velocities(OfJoints(all.joint_velocities)) {}
+  Source(const world::Snapshot& snapshot, int index)
+      : Source(*snapshot.layout, snapshot.state, index) {
+    if (!snapshot.accelerations.empty()) {
+      acceleration = snapshot.accelerations[static_cast<std::size_t>(index)];
+    }
+    if (!snapshot.joint_accelerations.empty()) {
+      joint_accelerations = OfJoints(snapshot.joint_accelerations);
+    }
   }
+
+  std::span<const double> OfJoints(const std::vector<double>& all) const {
+    return std::span(all).subspan(static_cast<std::size_t>(body.first_joint),
+                                  body.model->joints.size());
+  }
+  std::vector<Pose> WorldFromLinks() const {
+    std::vector<Pose> poses = world::LinkPoses(*body.model, joint_positions);
+    for (Pose& pose : poses) pose = state.world_from_model * pose;
+    return poses;
+  }
+
+  const world::Body& body;
+  const world::BodyState& state;
+  world::Acceleration acceleration;
+  std::span<const double> joint_positions, joint_velocities, joint_accelerations;
+};
+
+// Returns the motion of the links above all joints, at the origin of the model.
+LinkMotion MotionOfBase(const Source& source) {
+  LinkMotion base;
+  base.place = source.state.world_from_model.position;
+  base.velocity = source.state.linear_velocity;
+  base.angular_velocity = source.state.angular_velocity;
+  base.acceleration = source.acceleration.linear;
+  base.angular_acceleration = source.acceleration.angular;
   return base;
 }
 
 class MotionReader {
  public:
-  MotionReader(const world::Snapshot& snapshot, int body)
-      : snapshot_(snapshot),
-        body_(snapshot.layout->bodies[static_cast<std::size_t>(body)]),
-        poses_(world::LinkPoses(snapshot, body)),
+  explicit MotionReader(const Source& source)
+      : source_(source),
+        poses_(source.WorldFromLinks()),
         above_(poses_.size(), -1),
         is_known_(poses_.size()) {
     for (std::size_t j = 0; j < model().joints.size(); ++j) {
       above_[static_cast<std::size_t>(model().joints[j].child)] = static_cast<int>(j);
     }
-    motions_.assign(poses_.size(), MotionOfBase(snapshot, body));
+    motions_.assign(poses_.size(), MotionOfBase(source));
   }
 
   const LinkMotion& Read(int link) {
@@ -71,20 +100,18 @@ class MotionReader {
   }
 
  private:
-  const model::Model& model() const { return *body_.model; }
+  const model::Model& model() const { return *source_.body.model; }
   const model::Joint& JointAbove(int link) const {
     const int joint = above_[static_cast<std::size_t>(link)];
     return model().joints[static_cast<std::size_t>(joint)];
   }
 
-  // Returns the index of a joint in the state's arrays of joint values.
-  std::size_t PlaceOf(int joint) const {
-    return static_cast<std::size_t>(body_.first_joint + joint);
+  double RateOf(int joint) const {
+    return source_.joint_velocities[static_cast<std::size_t>(joint)];
   }
-  double RateOf(int joint) const { return snapshot_.state.joint_velocities[PlaceOf(joint)]; }
   double AccelerationOf(int joint) const {
-    const std::size_t place = PlaceOf(joint);
-    return place < snapshot_.joint_accelerations.size() ? snapshot_.joint_accelerations[place] : 0;
+    const auto at = static_cast<std::size_t>(joint);
+    return at < source_.joint_accelerations.size() ? source_.joint_accelerations[at] : 0;
   }
 
   // Returns the number of consecutive ball joints directly above a link. Each ball joint is three
@@ -132,13 +159,18 @@ class MotionReader {
     }
   }
 
-  const world::Snapshot& snapshot_;
-  const world::Body& body_;
+  const Source source_;
   const std::vector<Pose> poses_;
   std::vector<int> above_;  // the joint above each link, or -1
   std::vector<bool> is_known_;
   std::vector<LinkMotion> motions_;
 };
+
+bool IsBelowAJoint(const Source& source, int link) {
+  const auto& joints = source.body.model->joints;
+  return std::any_of(joints.begin(), joints.end(),
+                     [&](const model::Joint& joint) { return joint.child == link; });
+}
 
 }  // namespace
 
@@ -155,17 +187,20 @@ void LinkMotion::MoveTo(const Vector3& point) {
 }
 
 LinkMotion MotionOfLink(const world::Snapshot& snapshot, int body, int link) {
-  const auto& joints = snapshot.layout->bodies[static_cast<std::size_t>(body)].model->joints;
-  const bool is_below_a_joint = std::any_of(
-      joints.begin(), joints.end(), [&](const model::Joint& joint) { return joint.child == link; });
-  if (is_below_a_joint) return MotionReader(snapshot, body).Read(link);
-  LinkMotion motion = MotionOfBase(snapshot, body);  // without the poses of all links
+  const Source source(snapshot, body);
+  if (IsBelowAJoint(source, link)) return MotionReader(source).Read(link);
+  LinkMotion motion = MotionOfBase(source);  // without the poses of all links
   motion.world_from_link = world::LinkPose(snapshot, body, link);
   return motion;
 }
 
+LinkMotion MotionOfLink(const world::Layout& layout, const world::State& state, int body,
+                        int link) {
+  return MotionReader(Source(layout, state, body)).Read(link);
+}
+
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body) {
-  return MotionReader(snapshot, body).ReadAll();
+  return MotionReader(Source(snapshot, body)).ReadAll();
 }
 
 }  // namespace gsv::sensing

@@ -26,6 +26,8 @@ struct LinkMotion {
 
 // Returns the motion of a link of a body.
 LinkMotion MotionOfLink(const world::Snapshot& snapshot, int body, int link);
+// As above, without accelerations.
+LinkMotion MotionOfLink(const world::Layout& layout, const world::State& state, int body, int link);
 
 // Returns the motions of all links in the order of the model's links.
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body);

@@ -1,7 +1,11 @@
 // Computes the state of a world after bodies have been added or removed.
 #pragma once
 
-#include "gsv/world/state.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {
 
@@ -10,6 +14,15 @@ namespace gsv::simulation {
 // changed; see CarryOverDevices().
 world::State CarryOver(const world::Layout& old_layout, const world::State& old_state,
                        const world::Layout& layout);
+
+// Returns an earlier snapshot with the bodies of `layout`. Bodies that it does not contain have their
+// state in `now`, the state after the change.
+world::Snapshot CarryOver(const world::Snapshot& earlier,
+                          const std::shared_ptr<const world::Layout>& layout,
+                          const world::State& now);
+
+// Removes the contacts and the accelerations of these bodies from a snapshot.
+void ForgetMotion(const std::vector<std::string>& bodies, world::Snapshot& snapshot);
 
 // Puts a body at its initial pose, at rest.
 void ResetToInitialPose(const world::Layout& layout, int body, world::State& state);

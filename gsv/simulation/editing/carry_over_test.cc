@@ -56,6 +56,41 @@ TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewBodiesAtTheirInitialPose) {
   EXPECT_EQ(carried.joint_commands[0].kind, world::JointCommand::Kind::kNone);
   EXPECT_EQ(carried.joint_commands[2].value, 5);
   EXPECT_THAT(carried.joint_integrals, ElementsAre(0, 6, 7));
+  EXPECT_EQ(carried.bodies[0].since, 70ms);
+  EXPECT_EQ(carried.bodies[1].since, 0ms);
+}
+
+world::Contact Between(int first, int second) {
+  world::Contact contact;
+  contact.first = first, contact.second = second;
+  return contact;
+}
+
+TEST(CarryOver, KeepsContactsAndAccelerationsOfASnapshot) {
+  world::Snapshot earlier;
+  earlier.layout = LayoutOf({Named("b", 1, 0), Named("c", 0, 1), Named("gone", 0, 2)});
+  earlier.state = world::InitialState(*earlier.layout);
+  earlier.step_length = 10ms;
+  earlier.contacts = {Between(0, 1), Between(1, 2)};
+  earlier.accelerations = {{{1, 0, 0}, {}}, {{2, 0, 0}, {}}, {{3, 0, 0}, {}}};
+  earlier.joint_accelerations = {4};
+  const auto layout = LayoutOf({Named("a", 1, -1), Named("b", 1, 0), Named("c", 0, 1)});
+  world::State now = world::InitialState(*layout);
+  now.bodies[0].world_from_model.position.x = -3;
+  world::Snapshot carried = CarryOver(earlier, layout, now);
+  EXPECT_EQ(carried.state.bodies[0].world_from_model.position.x, -3);
+  EXPECT_EQ(carried.step_length, 10ms);
+  ASSERT_EQ(carried.contacts.size(), 1u);
+  EXPECT_EQ(carried.contacts[0].first, 1);
+  EXPECT_EQ(carried.contacts[0].second, 2);
+  ASSERT_EQ(carried.accelerations.size(), 3u);
+  EXPECT_EQ(carried.accelerations[0].linear.x, 0);
+  EXPECT_EQ(carried.accelerations[2].linear.x, 2);
+  EXPECT_THAT(carried.joint_accelerations, ElementsAre(0, 4));
+  ForgetMotion({"b"}, carried);
+  EXPECT_TRUE(carried.contacts.empty());
+  EXPECT_THAT(carried.joint_accelerations, ElementsAre(0, 0));
+  EXPECT_EQ(carried.accelerations[2].linear.x, 2);
 }
 
 TEST(ResetToInitialPose, StopsABodyAtItsInitialPose) {

@@ -115,8 +115,26 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
       !ok) {
     return ok;
   }
-  shared_->history.Restart(std::make_shared<world::Snapshot>(world_.InitialSnapshot()));
+  TakeChange(placed);
   return {};
+}
+
+void WorldEditor::TakeChange(const std::vector<std::string>& placed) {
+  auto latest = std::make_shared<world::Snapshot>(world_.InitialSnapshot());
+  if (latest->state.step == 0) {
+    shared_->history.Restart(std::move(latest));
+    return;
+  }
+  const auto carry_over = [&layout = world_.layout(),
+                           &now = std::as_const(world_).state()](const world::Snapshot& earlier) {
+    return std::make_shared<world::Snapshot>(CarryOver(earlier, layout, now));
+  };
+  // Sensors keep what they have sampled, and the contacts and accelerations of the last step.
+  world::State state = std::move(latest->state);
+  *latest = *carry_over(*shared_->history.latest());
+  latest->state = std::move(state);
+  ForgetMotion(placed, *latest);
+  shared_->history.Change(std::move(latest), carry_over);
 }
 
 base::Result<int> WorldEditor::FindMovable(const std::string& name) const {

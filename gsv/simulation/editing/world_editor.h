@@ -57,6 +57,8 @@ class WorldEditor {
   base::Status ChangeWorld(std::vector<world::Body> bodies,
                            std::shared_ptr<const model::WorldDescription> description,
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
+  // Passes the changed world to the sensors.
+  void TakeChange(const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
   // Moves new or moved bodies out of overlaps with other bodies. Emits an event for each robot
   // whose pose this changes.
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,

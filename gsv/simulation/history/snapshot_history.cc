@@ -55,4 +55,26 @@ void SnapshotHistory::Restart(SnapshotPtr snapshot) {
   latest_ = std::move(snapshot);
 }
 
+void SnapshotHistory::Change(SnapshotPtr latest,
+                             const std::function<SnapshotPtr(const world::Snapshot&)>& carry_over) {
+  const base::MutexLock lock(mutex_);
+  // Cadences share snapshots.
+  std::vector<std::pair<SnapshotPtr, SnapshotPtr>> changed{{latest_, latest}};
+  const auto change = [&](SnapshotPtr& snapshot) {
+    const auto known = std::find_if(changed.begin(), changed.end(),
+                                    [&](const auto& pair) { return pair.first == snapshot; });
+    if (known == changed.end()) {
+      changed.emplace_back(snapshot, carry_over(*snapshot));
+      snapshot = changed.back().second;
+    } else {
+      snapshot = known->second;
+    }
+  };
+  for (auto& [cadence, kept] : kept_) {
+    change(kept.arrived);
+    for (SnapshotPtr& coming : kept.coming) change(coming);
+  }
+  latest_ = std::move(latest);
+}
+
 }  // namespace gsv::simulation

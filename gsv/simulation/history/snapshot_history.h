@@ -10,6 +10,7 @@
 
 #include <compare>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -71,9 +72,13 @@ class SnapshotHistory {
 
   // Adds the snapshot of the newest step. No step at a sampling instant may be left out.
   void Publish(SnapshotPtr snapshot);
-  // Restarts the history after a change between two steps, such as an added robot. Older snapshots
-  // are dropped.
+  // Restarts the history at the start of a run. Older snapshots are dropped.
   void Restart(SnapshotPtr snapshot);
+  // Replaces the latest snapshot after a change of the world between two steps, such as an added
+  // robot. The samples of sensors stay what they are: `carry_over` returns an earlier snapshot with
+  // the bodies of the changed world.
+  void Change(SnapshotPtr latest,
+              const std::function<SnapshotPtr(const world::Snapshot&)>& carry_over);
 
  private:
   // The samples of one cadence.

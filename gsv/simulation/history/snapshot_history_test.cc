@@ -66,6 +66,26 @@ TEST(SnapshotHistory, ReturnsTheNextSamplingInstantUpToALimit) {
   EXPECT_EQ(history.NextSampling(1s), 50ms);
 }
 
+// The samples of 0, 20, 40, … ms are available 15 ms later.
+TEST(SnapshotHistory, AChangeOfTheWorldKeepsTheSamples) {
+  SnapshotHistory history(At(0, 10ms));
+  const Cadence late{20ms, 15ms};
+  history.Use(late);
+  for (int step = 1; step <= 3; ++step) history.Publish(At(step, 10ms));
+  const auto carry_over = [](const world::Snapshot& earlier) {
+    auto snapshot = std::make_shared<world::Snapshot>(earlier);
+    snapshot->step_length = 1ms;  // marks a changed snapshot
+    return snapshot;
+  };
+  history.Change(At(3, 10ms), carry_over);
+  EXPECT_EQ(history.At(late)->state.step, 0);
+  EXPECT_EQ(history.At(late)->step_length, 1ms);
+  EXPECT_EQ(history.latest()->state.step, 3);
+  history.Publish(At(4, 10ms));
+  EXPECT_EQ(history.At(late)->state.step, 2);
+  EXPECT_EQ(history.At(late)->step_length, 1ms);
+}
+
 TEST(SnapshotHistory, RestartRemovesOlderSnapshots) {
   SnapshotHistory history(At(0, 10ms));
   history.At({1s});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "gsv/base/sorting.h"
+#include "gsv/sensing/presets.h"
 
 namespace gsv::simulation {
 namespace {
@@ -54,6 +55,10 @@ base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription descript
   const auto cadence = CadenceOf(description, where);
   if (!cadence) return base::Fail(cadence.error());
   description.type = type->name;
+  // Readers of the description, such as Sonar::max_range(), need the parameters of the preset.
+  auto whole = sensing::WithPreset(type->name, description);
+  if (!whole) return base::Fail(whole.error());
+  description = *std::move(whole);
   auto design = std::make_shared<SensorDesign>();
   auto sensor = type->create(description);
   if (!sensor) return base::Fail(sensor.error());
