@@ -127,6 +127,63 @@ TEST_F(SdfReaderTest, PlacesIncludesByPoseNameStaticAndFrame) {
   for (const auto& placed : world.models) EXPECT_EQ(placed.model, world.models[0].model);
 }
 
+TEST_F(SdfReaderTest, PlacesAnIncludeByTheFrameThatItsFileNames) {
+  folder_.Write(
+      "chair/model.sdf",
+      Sdf("<model name='chair' placement_frame='foot'><link name='seat'>" + std::string(kBox) +
+          "</link><frame name='foot'><pose>0 0 -0.5 0 0 0</pose></frame></model>"));
+  const auto world = World(R"(<world name='w'>
+    <include><uri>model://chair</uri><pose>1 2 0 0 0 0</pose></include>
+    <include><uri>model://chair</uri><name>b</name><pose>1 2 0 0 0 0</pose>
+      <placement_frame>__model__</placement_frame></include></world>)");
+  ASSERT_THAT(world.models, SizeIs(2));
+  ExpectNear(world.models[0].world_from_model.position, {1, 2, 0.5});
+  ExpectNear(world.models[1].world_from_model.position, {1, 2, 0});
+}
+
+TEST_F(SdfReaderTest, PlacesAFrameRelativeToTheWorldIfItsPoseIs) {
+  const auto world = World(
+      "<world name='w'><model name='dock'><pose>2 0 0 0 0 1.5</pose><link "
+      "name='l'>" +
+      std::string(kBox) +
+      "</link></model><frame name='f' attached_to='dock'><pose "
+      "relative_to='world'>1 0 0 0 0 0</pose></frame><model name='m'><pose "
+      "relative_to='f'/><link name='l'>" +
+      kBox + "</link></model></world>");
+  ASSERT_THAT(world.models, SizeIs(2));
+  ExpectNear(world.models[1].world_from_model.position, {1, 0, 0});
+}
+
+TEST_F(SdfReaderTest, BuiltInModelsInAModelHaveTheNameAndThePoseOfTheirInclude) {
+  const auto world = World(
+      "<world name='w'><model name='site'><include><uri>model://ground_plane</uri><name>upper"
+      "</name><pose>0 0 3 0 0 0</pose></include><link name='l'>" +
+      std::string(kBox) + "</link></model></world>");
+  ASSERT_THAT(world.models, SizeIs(1));
+  bool is_found = false;
+  for (const model::Link& link : world.models[0].model->links) {
+    if (!link.name.starts_with("upper::")) continue;
+    is_found = true;
+    ExpectNear(link.model_from_link.position, {0, 0, 3});
+  }
+  EXPECT_TRUE(is_found);
+}
+
+TEST_F(SdfReaderTest, ALensWithOnlyIntrinsicsHasNoType) {
+  const auto lens = [&](const std::string& more) {
+    const auto world = World(
+        "<world name='w'><model name='m'><link name='l'>" + std::string(kBox) +
+        "<sensor name='s' type='camera'><camera><lens>" + more +
+        "<intrinsics><fx>554</fx><fy>554</fy><cx>320</cx><cy>240</cy><s>0</s></intrinsics></lens>"
+        "</camera></sensor></link></model></world>");
+    const model::Parameters& parameters = world.models.at(0).model->sensors.at(0).parameters;
+    EXPECT_EQ(model::NumberOr(parameters, "lens.intrinsics.fx", 0), 554);
+    return model::TextOr(parameters, "lens.type", "none");
+  };
+  EXPECT_EQ(lens(""), "none");
+  EXPECT_EQ(lens("<type>stereographic</type>"), "stereographic");
+}
+
 TEST_F(SdfReaderTest, InlineModelsAreReadOnceAndPlacedByFramesOfTheWorld) {
   std::string content =
       "<world name='w'><frame name='f'><pose>0 0 5 0 0 1.5707963267948966</pose></frame>";

@@ -167,6 +167,29 @@ constexpr const char* kRobot = R"(<sdf version='1.9'><model name='r'>
 
 TEST_F(UrdfRoundTripTest, KeepsLinksJointsInertiasAndShapes) { ExpectSame(*ReadText(kRobot)); }
 
+TEST_F(UrdfRoundTripTest, KeepsMimicJoints) {
+  const std::string link = "<inertial><mass>1</mass></inertial></link>";
+  const std::string finger =
+      "<parent>base</parent><child>$</child><axis><xyz>0 1 0</xyz><limit><lower>-1</lower>"
+      "<upper>1</upper></limit>";
+  const auto joint = [&](const std::string& name, const std::string& child) {
+    std::string text = "<joint name='" + name + "' type='prismatic'>" + finger;
+    return text.replace(text.find('$'), 1, child);
+  };
+  const ModelPointer model = ReadText(
+      "<sdf version='1.11'><model name='r'><link name='base'>" + link + "<link name='a'>" + link +
+      "<link name='b'>" + link + joint("left", "a") + "</axis></joint>" + joint("right", "b") +
+      "<mimic joint='left'><multiplier>-2</multiplier><offset>0.3</offset><reference>0.1"
+      "</reference></mimic></axis></joint></model></sdf>");
+  ASSERT_TRUE(Named(model->joints, "right")->mimic);
+  const ModelPointer read = WrittenAndRead(*model);
+  const model::Joint* const right = Named(read->joints, "right");
+  ASSERT_TRUE(right != nullptr && right->mimic);
+  EXPECT_EQ(read->joints[static_cast<std::size_t>(right->mimic->leader)].name, "left");
+  EXPECT_EQ(right->mimic->multiplier, -2);
+  EXPECT_DOUBLE_EQ(right->mimic->offset - right->mimic->multiplier * right->mimic->reference, 0.5);
+}
+
 TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsFixedToTheWorld) {
   ExpectSame(
       *ReadText("<sdf version='1.9'><model name='m'><static>true</static><link name='l'>"

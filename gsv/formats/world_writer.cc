@@ -104,10 +104,11 @@ class WorldWriter {
   base::Result<std::string> Write(const std::vector<PlacedModel>& models,
                                   const geometry::Vector3& gravity) {
     if (auto ok = Open(); !ok) return Fail(ok.error());
+    TakeStates();
     NameElements();
+    for (XMLElement* const element : gone_) world_->DeleteChild(element);
     KeepTemplates();
     MakeNamesAbsolute(*world_, kMaxDepth);
-    DropStates();
     PlaceLights();
     std::set<std::string> kept;
     for (const PlacedModel& placed : models) {
@@ -211,6 +212,7 @@ class WorldWriter {
   void Name(const std::string& wanted, XMLElement& element) {
     std::string name = wanted;
     for (int i = 1; !names_.insert(name).second; ++i) name = wanted + "_" + std::to_string(i);
+    if (deleted_.contains(name)) gone_.push_back(&element);
     if (Original(name) == nullptr) return;
     elements_[name] = &element;
     if (name != wanted) Rename(element, name);
@@ -244,21 +246,48 @@ class WorldWriter {
     return children;
   }
 
-  void DropStates() {
+  // Removes the <state>s. The models and lights that they insert become a part of the world, as in
+  // WorldState::Read(). The poses in them are those of original_.
+  void TakeStates() {
     for (XMLElement* const state : ChildrenOf("state")) {
-      Warn("the <state> of the world is not saved: joints start at their initial positions",
-           original_.source);
+      const char* const of = state->Attribute("world_name");
+      const char* const own = world_->Attribute("name");
+      if (of == nullptr || own == nullptr || std::string_view(of) == own) TakeState(*state);
       world_->DeleteChild(state);
+    }
+  }
+
+  void TakeState(XMLElement& state) {
+    has_state_ = true;
+    Warn("the <state> of the world is not saved: joints start at their initial positions",
+         original_.source);
+    if (auto* const insertions = state.FirstChildElement("insertions")) {
+      XMLElement* next = nullptr;
+      for (auto* child = insertions->FirstChildElement(); child != nullptr; child = next) {
+        next = child->NextSiblingElement();
+        const std::string_view kind = child->Name();
+        if (kind == "model" || kind == "light") world_->InsertEndChild(child);
+      }
+    }
+    const auto* const deletions = state.FirstChildElement("deletions");
+    if (deletions == nullptr) return;
+    for (auto* name = deletions->FirstChildElement("name"); name != nullptr;
+         name = name->NextSiblingElement("name")) {
+      if (name->GetText() != nullptr) deleted_.insert(name->GetText());
     }
   }
 
   void PlaceLights() {
     for (XMLElement* const light : ChildrenOf("light")) {
       const char* const name = light->Attribute("name");
+      if (name != nullptr && deleted_.contains(name)) {
+        world_->DeleteChild(light);
+        continue;
+      }
       const auto found = std::find_if(
           original_.lights.begin(), original_.lights.end(),
           [&](const model::Light& each) { return name != nullptr && each.name == name; });
-      if (IsRelative(*light) && found != original_.lights.end()) {
+      if ((has_state_ || IsRelative(*light)) && found != original_.lights.end()) {
         SetPose(*light, found->world_from_light);
       }
     }
@@ -279,8 +308,8 @@ class WorldWriter {
     const bool stands = original->world_from_model == placed.world_from_model;
     const bool is_actor =
         placed.model->script != nullptr;  // a script sets its pose, so <pose> stays
-    if ((!stands || IsRelative(*found->second)) && !is_actor) {
-      SetPose(*found->second, placed.world_from_model);
+    if ((!stands || has_state_ || IsRelative(*found->second)) && !is_actor) {
+      SetPose(*found->second, placed);
     }
     return true;
   }
@@ -289,6 +318,14 @@ class WorldWriter {
     XMLElement* element = parent.FirstChildElement(child);
     if (element == nullptr) element = parent.InsertNewChildElement(child);
     element->SetText(text.c_str());
+  }
+
+  // As below, for the element of a model.
+  void SetPose(XMLElement& element, const PlacedModel& placed) {
+    SetPose(element, placed.world_from_model);
+    if (!IsInclude(element) || !placed.model->has_placement_frame) return;
+    // Otherwise, the frame that the included file names would be at the pose.
+    SetText(element, "placement_frame", "__model__");
   }
 
   void SetPose(XMLElement& element, const Pose& pose) {
@@ -322,7 +359,7 @@ class WorldWriter {
     XMLElement* const element = ElementFor(placed);
     if (element == nullptr) return;
     Rename(*element, placed.name);
-    SetPose(*element, placed.world_from_model);
+    SetPose(*element, placed);
     if (placed.is_static != placed.model->is_static) {
       SetText(*element, "static", placed.is_static ? "true" : "false");
     }
@@ -463,6 +500,9 @@ class WorldWriter {
   base::Problems& problems_;
   XmlFile file_;
   XMLElement* world_ = nullptr;
+  bool has_state_ = false;         // whether the world had a <state>
+  std::set<std::string> deleted_;  // names of models and lights that the <state> deletes
+  std::vector<XMLElement*> gone_;  // the elements of these models
   std::set<std::string> names_;
   std::map<std::string, XMLElement*> elements_;   // elements of the file, by their names
   std::map<std::string, XMLElement*> templates_;  // copies of these elements, owned by the document

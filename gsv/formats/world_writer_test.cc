@@ -104,6 +104,40 @@ TEST_F(WorldWriterTest, IncludesAreKeptAndFoundFromAnotherFolder) {
   ExpectSame(Again(world, models), models);
 }
 
+TEST_F(WorldWriterTest, AWorldWithASavedStateStaysWhereItIs) {
+  const auto model = [](const std::string& name) {
+    return "<model name='" + name + "'>" + kLink + "</model>";
+  };
+  const auto world = World(
+      "<world name='w'><light name='sun' type='point'/><light name='off' type='point'/>" +
+      model("shelf") + model("gone") +
+      "<state world_name='w'><deletions><name>gone</name><name>off</name></deletions><insertions>" +
+      model("new") +
+      "</insertions><model name='shelf'><pose>5 0 0 0 0 0</pose></model>"
+      "<light name='sun'><pose>1 2 3 0 0 0</pose></light></state></world>");
+  ASSERT_EQ(world.models.size(), 2u);
+  const auto again = Again(world, world.models);
+  ExpectSame(again, world.models);
+  EXPECT_EQ(Find(again, "shelf")->world_from_model.position.x, 5);
+  ASSERT_EQ(again.lights.size(), 1u);
+  EXPECT_EQ(again.lights[0].world_from_light.position, (geometry::Vector3{1, 2, 3}));
+}
+
+TEST_F(WorldWriterTest, MovesAnIncludeWhoseFileNamesAFrameForItsPose) {
+  folder_.Write("models/chair/model.sdf",
+                Document("<model name='chair' placement_frame='foot'>" + std::string(kLink) +
+                         "<frame name='foot'><pose>0 0 -0.5 0 0 0</pose></frame></model>"));
+  const auto world = World(
+      "<world name='w'><include><uri>models/chair/model.sdf</uri><pose>1 0 0 0 0 0</pose></include>"
+      "</world>");
+  ASSERT_EQ(world.models.size(), 1u);
+  EXPECT_EQ(world.models[0].world_from_model.position.z, 0.5);
+  std::vector<PlacedModel> models = world.models;
+  ExpectSame(Again(world, models), models);
+  models[0].world_from_model.position.x = 4;
+  ExpectSame(Again(world, models), models);
+}
+
 TEST_F(WorldWriterTest, NamesFilesOfTheModelPathWithoutTheirAbsolutePaths) {
   const auto arm = folder_.Write("models/parts/sdf/arm.sdf",
                                  Document("<model name='arm'>" + std::string(kLink) + "</model>"));

@@ -178,6 +178,8 @@ struct Model {
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;
+  // Whether the file places the model by one of its frames (//model/@placement_frame).
+  bool has_placement_frame = false;
   std::vector<Link> links;    // links[0] is the canonical link; never empty
   std::vector<Joint> joints;  // a forest: each link is the child of at most one joint
   // Joints that close loops of links: each connects two links of the forest. They apply only with

@@ -272,6 +272,13 @@ std::string SimulationBridge::NamespaceOf(const std::string& body) const {
 
 base::Status SimulationBridge::SetNamespace(const std::string& robot,
                                             const std::string& name_space) {
+  if (name_space.empty()) {
+    const base::MutexLock lock(namespaces_mutex_);
+    namespaces_.erase(robot);  // an earlier robot of this name may have had one
+    const auto chosen = options_.namespaces.find(robot);
+    if (chosen != options_.namespaces.end()) namespaces_.insert(*chosen);
+    return {};
+  }
   const std::string whole = name_space.starts_with('/') ? name_space : "/" + name_space;
   if (!IsNamespace(whole)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "it is not a valid ROS 2 namespace",

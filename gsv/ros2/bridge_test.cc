@@ -11,6 +11,7 @@
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/std_msgs.h"
 #include "gsv/messages/tf2_msgs.h"
+#include "gsv/messages/time.h"
 #include "gsv/messages/trajectory_msgs.h"
 #include "gsv/readings/catalogue.h"
 #include "gsv/ros2/node.h"
@@ -168,6 +169,65 @@ TEST_F(BridgeTest, MovesJointsAlongATrajectory) {
     position = state.position.at(0);
   }
   EXPECT_NEAR(position, 0.3, 1e-3);
+}
+
+TEST_F(BridgeTest, AResetEndsATrajectory) {
+  auto robot = simulation::Robot("lift", 0, 3);
+  robot.model = Lift();
+  ASSERT_TRUE(simulation_->AddRobot(robot));
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/lift/joint_states", "sensor_msgs/msg/JointState", kDefaultQos);
+  const auto writer = peer_->Talk("/lift/joint_trajectory", "trajectory_msgs/msg/JointTrajectory");
+  messages::trajectory_msgs::JointTrajectory trajectory;
+  trajectory.joint_names = {"lift"};
+  trajectory.points.resize(1);
+  trajectory.points[0].positions = {0.5};
+  trajectory.points[0].time_from_start.sec = 2;
+  messages::Bytes bytes;
+  messages::Encode(trajectory, bytes);
+  writer->Write(bytes);
+  std::size_t count = 0;
+  const auto next = [&] {
+    return peer_->Await<messages::sensor_msgs::JointState>("/lift/joint_states", ++count);
+  };
+  while (!HasFailure() && next().position.at(0) < 0.01) {
+  }
+  ASSERT_TRUE(simulation_->Stop());
+  ASSERT_TRUE(simulation_->Reset());
+  ASSERT_TRUE(simulation_->Start());
+  messages::sensor_msgs::JointState state;
+  do {
+    state = next();
+  } while (!HasFailure() &&
+           messages::ToSimTime(state.header.stamp) > std::chrono::milliseconds(50));
+  while (!HasFailure() && messages::ToSimTime(state.header.stamp) < std::chrono::seconds(1)) {
+    ASSERT_EQ(state.position.at(0), 0);
+    state = next();
+  }
+}
+
+TEST_F(BridgeTest, PublishesLidarsWithOneAndWithSeveralRowsOnTheirUsualTopics) {
+  auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+  model->sensors.resize(2, model->sensors[0]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    model->sensors[i].name = i == 0 ? "front" : "top";
+    model->sensors[i].type = readings::Lidar::kType;
+    model->sensors[i].parameters = {{"scan.vertical.samples", i == 0 ? 1.0 : 4.0},
+                                    {"scan.vertical.min_angle", -0.1},
+                                    {"scan.vertical.max_angle", 0.1}};
+  }
+  auto robot = simulation::Robot("scanner", 0, 3);
+  robot.model = model;
+  ASSERT_TRUE(simulation_->AddRobot(robot));
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/scanner/scan", "sensor_msgs/msg/LaserScan", kSensorDataQos);
+  EXPECT_EQ(peer_->Await<messages::sensor_msgs::LaserScan>("/scanner/scan").header.frame_id,
+            "scanner/front");
+  peer_->Listen("/scanner/points", "sensor_msgs/msg/PointCloud2", kLargeDataQos);
+  EXPECT_EQ(peer_->Await<messages::sensor_msgs::PointCloud2>("/scanner/points").header.frame_id,
+            "scanner/top");
 }
 
 TEST_F(BridgeTest, PublishesACameraAndAWideAngleCameraOnDifferentTopics) {

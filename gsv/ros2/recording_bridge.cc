@@ -12,6 +12,7 @@
 #include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/recording/mcap/mcap_reader.h"
+#include "gsv/recording/reading/newest_messages.h"
 #include "gsv/ros2/graph.h"
 #include "gsv/ros2/message_source.h"
 #include "gsv/ros2/names.h"
@@ -66,6 +67,7 @@ class FileBridge final : public RecordingBridge {
   Node node_;
   dds::Writer* clock_ = nullptr;
   std::map<std::uint16_t, dds::Writer*> writers_;  // writers by the ids of their channels
+  std::set<std::uint16_t> latched_;                // the channels whose newest message stays valid
   std::optional<recording::MessageCursor> cursor_;
   std::optional<recording::MessageRecord> next_;  // the next message to publish
   base::Mutex mutex_;
@@ -90,6 +92,7 @@ void FileBridge::Advertise() {
     const bool is_latched = topic.ends_with("/tf_static") || topic.ends_with("/robot_description");
     writers_[id] =
         node_.Advertise(topic, schema->second.name, is_latched ? kLatchedQos : kDefaultQos);
+    if (is_latched && writers_[id] != nullptr) latched_.insert(id);
   }
   if (left_out > 0) spdlog::warn("{} topics of the recording are not published to ROS 2", left_out);
 }
@@ -115,6 +118,13 @@ void FileBridge::Run() {
 
 void FileBridge::JumpTo(base::SimTime time) {
   next_.reset();
+  // The messages at `time` follow from the cursor.
+  if (!latched_.empty()) {
+    const auto newest = recording::FindNewestMessages(*reader_, time - base::SimTime(1));
+    for (const auto& [id, message] : newest.by_channel) {
+      if (latched_.contains(id)) writers_[id]->Write(message.data);
+    }
+  }
   cursor_.emplace(reader_->Messages(time));
   ReadNext();
 }

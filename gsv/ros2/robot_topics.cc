@@ -98,12 +98,13 @@ void RobotTopics::AddSensors(const Context& context) {
   std::map<std::string, int> counts;
   for (const model::SensorDescription& description : sensors_) {
     const sensing::SensorType* const type = types.Find(description.type);
-    if (type != nullptr) ++counts[UsualTopicOf(*type)];
+    if (type != nullptr) ++counts[UsualTopicOf(*type, description)];
     is_optical_.push_back(type != nullptr && type->companion.has_value());
   }
   for (const model::SensorDescription& description : sensors_) {
     const sensing::SensorType* const type = types.Find(description.type);
-    if (type != nullptr) AddSensor(context, description, counts[UsualTopicOf(*type)] == 1);
+    if (type == nullptr) continue;
+    AddSensor(context, description, counts[UsualTopicOf(*type, description)] == 1);
   }
 }
 

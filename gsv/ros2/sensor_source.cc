@@ -193,7 +193,11 @@ class OutputList {
 
 }  // namespace
 
-std::string UsualTopicOf(const sensing::SensorType& type) {
+std::string UsualTopicOf(const sensing::SensorType& type,
+                         const model::SensorDescription& description) {
+  const bool has_rows =
+      type.name == readings::Lidar::kType && type.MessagesOf(description).companion.has_value();
+  if (has_rows) return "points";
   const UsualTopic* const usual = FindUsualTopic(type.name);
   return usual == nullptr ? std::string() : usual->topic;
 }

@@ -46,9 +46,10 @@ struct RosSensor {
   bool is_only = true;
 };
 
-// Returns the usual topic of a type of sensor, such as "camera" for cameras and for wide-angle
-// cameras. Empty if the type has no usual topic.
-std::string UsualTopicOf(const sensing::SensorType& type);
+// Returns the usual topic of a sensor, such as "camera" for cameras and for wide-angle cameras. Empty
+// if its type has no usual topic.
+std::string UsualTopicOf(const sensing::SensorType& type,
+                         const model::SensorDescription& description);
 
 // Returns the messages of a sensor. The sensor's type determines their topics, such as "scan" for a
 // lidar and "camera/image_raw" for a camera. If a robot has several sensors with the same usual

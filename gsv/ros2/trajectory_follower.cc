@@ -52,14 +52,20 @@ void TrajectoryFollower::Begin(JointTrajectory trajectory, const world::Snapshot
 void TrajectoryFollower::Publish(const Moment& moment) {
   const int body = moment.snapshot->layout->Find(body_);
   if (body < 0) return;
+  const base::SimTime now = moment.snapshot->state.time;
+  if (now < std::exchange(last_, now)) active_.reset();  // the simulation was reset
   std::optional<JointTrajectory> next;
   {
     const base::MutexLock lock(mutex_);
     next = std::exchange(next_, std::nullopt);
   }
   if (next) Begin(*std::move(next), *moment.snapshot, body);
-  if (!active_) return;
-  const base::SimTime time = moment.snapshot->state.time - active_->start;
+  if (!active_) {
+    const base::MutexLock lock(mutex_);
+    is_active_ = next_.has_value();
+    return;
+  }
+  const base::SimTime time = now - active_->start;
   if (time < base::SimTime(0)) return;  // the start is in the future
   const JointTrajectory& trajectory = active_->trajectory;
   input_->CommandPositions(trajectory.joints, trajectory.PositionsAt(time, active_->initial));

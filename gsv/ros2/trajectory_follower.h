@@ -49,6 +49,7 @@ class TrajectoryFollower final : public Source {
   const std::vector<int> joints_;  // indices in the model
   const std::function<void()> on_change_;
   std::optional<Active> active_;  // nullopt if no trajectory is followed
+  base::SimTime last_{0};         // time of the last Publish()
   mutable base::Mutex mutex_;
   // A trajectory that Take() has received, and that Publish() has not yet begun.
   std::optional<JointTrajectory> next_ GSV_GUARDED_BY(mutex_);

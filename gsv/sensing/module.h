@@ -15,7 +15,7 @@ namespace gsv::sensing {
 
 // The version of the interface. Increase it with every change of SensorType, Sensor, Device,
 // Sampling or Reading.
-inline constexpr int kSensorInterface = 7;
+inline constexpr int kSensorInterface = 8;
 // Name of the function by which a plug-in returns its SensorModule.
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 

@@ -138,6 +138,7 @@ class Checker {
     }
     const Kind wanted = type ? KindOf(type->scalar) : Kind::kUnknown;
     if (!MayCompare(element, wanted)) {
+      if (!type) return Refuse(node, std::string("no sequence can contain ") + Name(element));
       return Refuse(node, "the property " + node.property + " is " + type->Spelling() +
                               ", which cannot contain " + Name(element));
     }

@@ -38,6 +38,20 @@ std::string IncludeLeftOut(const std::string& uri, const base::Error& error) {
          " is ignored: " + error.Sentence();
 }
 
+void InsertBuiltIn(XMLElement& include, std::string_view text) {
+  tinyxml2::XMLDocument document;
+  document.Parse(text.data(), text.size());
+  auto* built_in = document.RootElement()->DeepClone(include.GetDocument())->ToElement();
+  if (const auto* name = include.FirstChildElement("name"); name != nullptr && name->GetText()) {
+    built_in->SetAttribute("name", name->GetText());
+  }
+  if (const auto* pose = include.FirstChildElement("pose")) {
+    if (auto* own = built_in->FirstChildElement("pose")) built_in->DeleteChild(own);
+    built_in->InsertFirstChild(pose->DeepClone(include.GetDocument()));
+  }
+  include.Parent()->InsertAfterChild(&include, built_in);
+}
+
 base::Result<fs::path> IncludeScan::FileOf(const std::string& uri, const fs::path& naming_file) {
   const auto key = std::make_pair(uri, naming_file.string());
   if (const auto known = found_.find(key); known != found_.end()) return known->second;
@@ -126,9 +140,7 @@ void IncludeScan::ReplaceOrRemove(XMLElement& include, const std::string& uri,
     problems_.push_back(
         {Problem::Severity::kWarning, IncludeLeftOut(uri, error), PlaceOf(file, include)});
   } else if (built_in.substr(0, 6) == "<model") {
-    tinyxml2::XMLDocument document;
-    document.Parse(built_in.data(), built_in.size());
-    parent->InsertAfterChild(&include, document.RootElement()->DeepClone(include.GetDocument()));
+    InsertBuiltIn(include, built_in);
   }
   parent->DeleteChild(&include);
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tinyxml2.h>
@@ -17,6 +18,10 @@
 #include "gsv/formats/sdf/sdf_xml.h"
 
 namespace gsv::formats {
+
+// Inserts a built-in model after an <include>, with the name and the pose of the <include>. `text` is
+// a <model> or a <light>.
+void InsertBuiltIn(tinyxml2::XMLElement& include, std::string_view text);
 
 // Finds, reads and repairs included files.
 class IncludeScan {

@@ -65,7 +65,9 @@ class ModelReader {
     ReadMovement(source.Element());
     ReadSlipOfDrive(source.Element());
     SetDefaultPose(source);
+    model_.has_placement_frame = !source.PlacementFrameName().empty();
     FramedModel result;
+    result.placement_frame = source.PlacementFrameName();
     result.model = std::make_shared<const Model>(std::move(model_));
     result.model_from_frame = std::move(frames_);
     return result;

@@ -17,6 +17,7 @@ namespace gsv::formats {
 struct FramedModel {
   std::shared_ptr<const model::Model> model;
   std::map<std::string, geometry::Pose> model_from_frame;  // by the frame's name
+  std::string placement_frame;  // the frame in the file by which the model is placed, or empty
 };
 
 // Converts a model. Fails if the model has no link, or a link with non-finite values. Appends all

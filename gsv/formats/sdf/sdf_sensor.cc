@@ -87,7 +87,9 @@ void Flatten(const sdf::ElementPtr& element, const std::string& prefix, bool onl
     const std::string path = prefix.empty() ? name : prefix + "." + name;
     const bool wraps = prefix.empty() && IsWrapper(name);
     const std::string inner = wraps ? "" : path;
-    const bool is_left_out = only_given && IsDefault(*child);
+    // libsdformat gives each <lens> without a <type> a stereographic lens. The default type depends on
+    // the type of the sensor (docs/sensors.md).
+    const bool is_left_out = (only_given || path == "lens.type") && IsDefault(*child);
     if (child->GetFirstElement() == nullptr && child->GetValue() != nullptr && !is_left_out) {
       AddParameter(path, ValueOf(*child->GetValue(), IsDefined(*child)), parameters);
     }

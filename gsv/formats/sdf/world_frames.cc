@@ -65,7 +65,13 @@ base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element) {
 base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame) {
   auto at = ReadPose(frame);
   const char* const attached_to = frame.Attribute("attached_to");
-  if (at && at->relative_to.empty() && attached_to != nullptr) at->relative_to = attached_to;
+  const tinyxml2::XMLElement* const pose = frame.FirstChildElement("pose");
+  const char* const relative_to = pose == nullptr ? nullptr : pose->Attribute("relative_to");
+  // relative_to="world" is not the same as no relative_to.
+  const bool is_relative = relative_to != nullptr && *relative_to != '\0';
+  if (at && !is_relative && at->relative_to.empty() && attached_to != nullptr) {
+    at->relative_to = attached_to;
+  }
   return at;
 }
 

@@ -153,28 +153,13 @@ class WorldReader {
       if (found) {
         if (auto status = Include(*child, *found); !status) return status;
       } else if (const std::string_view text = BuiltInModel(uri); !text.empty()) {
-        Substitute(*child, text);
+        InsertBuiltIn(*child, text);
       } else {
         context_.Warn(IncludeLeftOut(uri, found.error()), Place(*child));
       }
       world.DeleteChild(child);
     }
     return {};
-  }
-
-  // Replaces an include by a built-in model, with the name and pose of the include.
-  static void Substitute(XMLElement& include, std::string_view text) {
-    tinyxml2::XMLDocument document;
-    document.Parse(text.data(), text.size());
-    auto* built_in = document.RootElement()->DeepClone(include.GetDocument())->ToElement();
-    if (const auto* name = include.FirstChildElement("name"); name != nullptr && name->GetText()) {
-      built_in->SetAttribute("name", name->GetText());
-    }
-    if (const auto* pose = include.FirstChildElement("pose")) {
-      if (auto* own = built_in->FirstChildElement("pose")) built_in->DeleteChild(own);
-      built_in->InsertFirstChild(pose->DeepClone(include.GetDocument()));
-    }
-    include.Parent()->InsertAfterChild(&include, built_in);
   }
 
   base::Status Include(const XMLElement& include, const std::filesystem::path& found) {
@@ -426,6 +411,8 @@ class WorldReader {
       if (framed == nullptr) continue;
       if (placement.uses_own_pose && placement.placement_frame.empty()) {
         placement.at.pose = framed->model->default_pose;
+      } else if (placement.stored != nullptr && placement.placement_frame.empty()) {
+        placement.placement_frame = framed->placement_frame;
       }
       frames_.Add(placement.name, placement.at, FrameFromModel(placement, *framed),
                   &framed->model_from_frame);

@@ -78,6 +78,7 @@ class UrdfText {
       warn("the model's sensors (" + std::to_string(model_.sensors.size()) + ")");
     if (model_.drive && model_.drive->origin == model::DriveOrigin::kPlugin)
       warn("the settings of the model's drive");
+    if (!model_.loop_joints.empty()) warn("the joints that close loops");
     for (const model::Link& link : model_.links) {
       for (const model::Visual& visual : link.visuals) {
         for (const model::Material& material : visual.materials) {
@@ -243,7 +244,18 @@ class UrdfText {
     if (joint.type != "fixed" && joint.type != "floating") {
       WriteElement("axis", "xyz", Numbers(joint.axis));
       WriteLimits(joint);
+      if (joint.source->mimic) WriteMimic(*joint.source->mimic);
     }
+    out_.CloseElement();
+  }
+
+  // In URDF, the reference of a mimic joint is always 0.
+  void WriteMimic(const model::Mimic& mimic) {
+    out_.OpenElement("mimic");
+    out_.PushAttribute("joint", model_.joints[static_cast<std::size_t>(mimic.leader)].name.c_str());
+    out_.PushAttribute("multiplier", Numbers({mimic.multiplier}).c_str());
+    out_.PushAttribute("offset",
+                       Numbers({mimic.offset - mimic.multiplier * mimic.reference}).c_str());
     out_.CloseElement();
   }
 

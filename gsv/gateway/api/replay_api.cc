@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -29,8 +30,10 @@ std::string JsonText(const OrderedJson& json) {
 base::Status StepBy(ReplayPlayer& player, const std::string& body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
   if (json.is_object() && json.contains("poses")) {
-    const bool is_whole = json["poses"].is_number_integer();
-    return player.StepPoses(is_whole ? json["poses"].get<std::int64_t>() : 0);
+    const nlohmann::json& poses = json["poses"];
+    const bool is_huge = poses.is_number_unsigned() &&
+                         poses.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max();
+    return player.StepPoses(poses.is_number_integer() && !is_huge ? poses.get<std::int64_t>() : 0);
   }
   const auto arguments = ParseArguments(*simulation::FindCommand("step"), body);
   if (!arguments) return base::Fail(arguments.error());

@@ -26,13 +26,13 @@ const Json& MemberOf(const Json& object, const char* name) {
   return object.is_object() && found != object.end() ? *found : kNull;
 }
 
-void AddRobotsOf(const Json& scene, std::set<std::string>& robots) {
+// Adds the names of the bodies that have this flag.
+void AddBodiesOf(const Json& scene, const char* flag, std::set<std::string>& names) {
   const Json& bodies = MemberOf(scene, "bodies");
   if (!bodies.is_array()) return;
   for (const Json& body : bodies) {
     const Json& name = MemberOf(body, "name");
-    const bool is_robot = MemberOf(body, "is_robot") == true || MemberOf(body, "is_avatar") == true;
-    if (is_robot && name.is_string()) robots.insert(name.get<std::string>());
+    if (MemberOf(body, flag) == true && name.is_string()) names.insert(name.get<std::string>());
   }
 }
 
@@ -83,7 +83,9 @@ base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
     return base::Fail(base::ErrorCode::kCorrupt,
                       "this attachment is not a scene: layout_version is missing", index.name);
   }
-  AddRobotsOf(scene, robots_);
+  AddBodiesOf(scene, "is_robot", robots_);
+  AddBodiesOf(scene, "is_avatar", avatars_);
+  AddBodiesOf(scene, "is_station", stations_);
   scenes_[version.get<std::uint32_t>()] = {SharedBytes(std::string(text)), BodyPosesOf(scene)};
   return {};
 }

@@ -38,7 +38,9 @@ class RecordedScene {
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
   // Whether a body of this name is a robot or an avatar in one of the scenes.
-  bool IsRobot(const std::string& name) const { return robots_.contains(name); }
+  bool IsRobot(const std::string& name) const { return robots_.contains(name) || IsAvatar(name); }
+  bool IsAvatar(const std::string& name) const { return avatars_.contains(name); }
+  bool IsStation(const std::string& name) const { return stations_.contains(name); }
 
   // Whether one of the scenes has a body of this name that is not static.
   bool HasBody(const std::string& name) const;
@@ -59,9 +61,9 @@ class RecordedScene {
   void Warn(const base::Error& error);
 
   const recording::McapReader& reader_;
-  const ModelSource model_source_;         // provides models that are not attached; may be null
-  std::set<std::string> robots_;           // names of robots and avatars in all scenes
-  std::map<std::uint32_t, Entry> scenes_;  // scenes by layout version
+  const ModelSource model_source_;  // provides models that are not attached; may be null
+  std::set<std::string> robots_, avatars_, stations_;               // names in all scenes
+  std::map<std::uint32_t, Entry> scenes_;                           // scenes by layout version
   std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment name
   base::Problems problems_;
 };

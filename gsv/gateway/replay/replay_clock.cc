@@ -78,9 +78,11 @@ bool ReplayClock::Advance(WallTime now) {
     position_ += base::SimTime(static_cast<std::int64_t>(moved));
     return false;
   }
-  position_ = loop_ ? start_ : end_;
+  // The messages up to the end are sent before the replay starts again.
+  const bool starts_again = loop_ && position_ == end_;
+  position_ = starts_again ? start_ : end_;
   if (!loop_) phase_ = Phase::kFinished;
-  return loop_;
+  return starts_again;
 }
 
 }  // namespace gsv::gateway

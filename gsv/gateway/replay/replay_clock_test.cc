@@ -53,9 +53,22 @@ TEST(ReplayClock, RestartsWithLoop) {
   ReplayClock clock(0s, 100ms, 1, true);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
-  EXPECT_TRUE(clock.Advance(kNow + 150ms));
+  EXPECT_FALSE(clock.Advance(kNow + 150ms));
+  EXPECT_EQ(clock.position(), 100ms);
+  EXPECT_TRUE(clock.Advance(kNow + 160ms));
   EXPECT_EQ(clock.position(), 0s);
   EXPECT_EQ(clock.phase(), Phase::kRunning);
+}
+
+// A round at this speed is longer than the recording.
+TEST(ReplayClock, AShortRecordingIsPlayedToItsEndInALoop) {
+  ReplayClock clock(0s, 100ms, 1000, true);
+  ASSERT_TRUE(clock.Start());
+  clock.Advance(kNow);
+  for (int i = 1; i <= 4; ++i) {
+    EXPECT_EQ(clock.Advance(kNow + i * 30ms), i % 2 == 0);
+    EXPECT_EQ(clock.position(), i % 2 == 0 ? 0ms : 100ms);
+  }
 }
 
 TEST(ReplayClock, StepsAndPauses) {

@@ -253,6 +253,8 @@ simulation::SimulationStatus ReplayPlayer::status() const {
     shown.name = robot.name;
     shown.model = robot.model;
     shown.behaviour = robot.behaviour;
+    shown.is_avatar = scene_.IsAvatar(robot.name);
+    shown.is_station = scene_.IsStation(robot.name);
     shown.phase = ParseAgentPhase(robot.agent_state);
     shown.detail = robot.detail;
     shown.distance = robot.distance_m;

@@ -95,7 +95,8 @@ TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 120u);
   EXPECT_DOUBLE_EQ(step(R"({"poses":-1})"), 1.18);
   EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 118u);
-  for (const char* body : {R"({"poses":0})", R"({"poses":1.5})", R"({"poses":1001})"}) {
+  for (const char* body : {R"({"poses":0})", R"({"poses":1.5})", R"({"poses":1001})",
+                           R"({"poses":18446744073709551615})"}) {
     EXPECT_EQ(Post("step", body).status, 400) << body;
   }
 }

@@ -5,7 +5,7 @@
 //   image.width, image.height   320 by 240, at most 4096; through a lens at most 4,194,304 pixels
 //   horizontal_fov              1.047; at most 3.0 (pinhole) or 2 pi (wide)
 //   clip.near, clip.far         0.1 and 100
-//   lens.type                   gnomonical, stereographic, equidistant, solid_angle, orthographic
+//   lens.type                   gnomonical, stereographic, equidistant, equisolid_angle, orthographic
 //                               or custom (default: see Optics::Read())
 //   lens.scale_to_hfov          wide: true
 //   lens.cutoff_angle           wide: pi / 2

@@ -56,14 +56,14 @@ base::Result<WideView> WideViewNamed(const std::string& type) {
   using F = WideView::Function;
   static constexpr base::Named<WideView> kKnown[] = {
       {"gnomonical", {F::kTangent, 1, 1}},   {"stereographic", {F::kTangent, 2, 2}},
-      {"equidistant", {F::kIdentity, 1, 1}}, {"solid_angle", {F::kSine, 2, 2}},
-      {"orthographic", {F::kSine, 1, 1}},
+      {"equidistant", {F::kIdentity, 1, 1}}, {"equisolid_angle", {F::kSine, 2, 2}},
+      {"orthographic", {F::kSine, 1, 1}},    {"solid_angle", {F::kSine, 2, 2}},  // Gazebo Classic
   };
   if (const WideView* known = base::FindNamed(kKnown, type)) return *known;
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "there is no lens.type \"" + type +
-                        "\": it is gnomonical, stereographic, equidistant, solid_angle, "
-                        "orthographic or custom");
+                        "\": it is gnomonical, stereographic, equidistant, "
+                        "equisolid_angle, orthographic or custom");
 }
 
 Lens::Lens(const CameraParameters& camera) : Lens(camera, IntrinsicsOf(camera), {}) {}

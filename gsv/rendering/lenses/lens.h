@@ -55,7 +55,7 @@ struct WideView {
   friend bool operator==(const WideView&, const WideView&) = default;
 };
 
-// Returns the view named "gnomonical", "stereographic", "equidistant", "solid_angle" or
+// Returns the view named "gnomonical", "stereographic", "equidistant", "equisolid_angle" or
 // "orthographic".
 base::Result<WideView> WideViewNamed(const std::string& type);
 

@@ -109,6 +109,7 @@ TEST(Lens, WideViewsImageAnglesByTheirFunction) {
       {"gnomonical", [](double a) { return std::tan(a); }},
       {"stereographic", [](double a) { return 2 * std::tan(a / 2); }},
       {"equidistant", [](double a) { return a; }},
+      {"equisolid_angle", [](double a) { return 2 * std::sin(a / 2); }},
       {"solid_angle", [](double a) { return 2 * std::sin(a / 2); }},
       {"orthographic", [](double a) { return std::sin(a); }},
   };

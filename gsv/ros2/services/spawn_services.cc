@@ -77,12 +77,10 @@ SpawnResponse Spawn(ServedSimulation& served, Simulation& simulation,
   const base::Result<std::string> name = served.spawner->Spawn(simulation, spawn);
   if (!name) return NotSpawned(name.error());
   served.spawned().insert(*name);
-  if (!request.entity_namespace.empty()) {
-    if (const auto ok = served.SetNamespaceOf(*name, request.entity_namespace); !ok) {
-      (void)RemoveEntity(simulation, *name);
-      served.spawned().erase(*name);
-      return NotSpawned(SpawnResponse::kNamespaceInvalid, ok.error().Sentence());
-    }
+  if (const auto ok = served.SetNamespaceOf(*name, request.entity_namespace); !ok) {
+    (void)RemoveEntity(simulation, *name);
+    served.spawned().erase(*name);
+    return NotSpawned(SpawnResponse::kNamespaceInvalid, ok.error().Sentence());
   }
   return {Succeeded(), *name};
 }

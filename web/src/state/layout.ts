@@ -146,7 +146,11 @@ function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   }
   const parts = part.parts.flatMap(({ part: inner, share }) => {
     const kept = pruned(inner, known);
-    if (kept && "split" in kept && kept.split === part.split) return kept.parts.map((each) => ({ ...each }));
+    if (kept && "split" in kept && kept.split === part.split) {
+      // The parts of the inner row or column share its place.
+      const total = kept.parts.reduce((sum, each) => sum + each.share, 0);
+      return kept.parts.map((each) => ({ ...each, share: Math.max(1, Math.round((each.share * share) / total)) }));
+    }
     return kept ? [{ part: kept, share }] : [];
   });
   if (parts.length === 0) return null;

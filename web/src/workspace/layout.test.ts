@@ -93,3 +93,8 @@ test("sizes in pixels become fractions of the available space", () => {
   expect(column.size).toBe(250);
   expect(column.data.map(({ size }) => size)).toEqual([150, 450]);
 });
+
+test("the panels beside an unknown panel share its place", () => {
+  const read = readLayout("r(view~740,c(r(plots~500,log~500)~600,later~400)~260)", KNOWN);
+  expect(read).toEqual({ layout: layoutOf("r(view~740,plots~130,log~130)"), unknown: ["later"] });
+});
