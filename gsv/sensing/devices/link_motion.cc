@@ -27,7 +27,7 @@ void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& ar
   motion.acceleration += travel * (acceleration * axis + 2 * rate * Cross(around, axis));
 }
 
-// The state of a body. Without accelerations, the spans are empty.
+// The state of a body. Without accelerations, `acceleration` is 0 and `joint_accelerations` empty.
 struct Source {
   Source(const world::Layout& layout, const world::State& all, int index)
       : body(layout.bodies[static_cast<std::size_t>(index)]),
