@@ -15,6 +15,7 @@
 #include "gsv/formats/sdf/sdf_xml.h"
 #include "gsv/formats/sdf/shape_model.h"
 #include "gsv/formats/sdf/world_frames.h"
+#include "gsv/formats/sdf/world_state.h"
 #include "gsv/formats/xacro/arguments.h"
 
 namespace gsv::formats {
@@ -246,34 +247,18 @@ class WorldWriter {
     return children;
   }
 
-  // Removes the <state>s. The models and lights that they insert become a part of the world, as in
-  // WorldState::Read(). The poses in them are those of original_.
+  // Removes the <state>s. The models and lights that they insert become a part of the world. The
+  // poses in them are those of original_.
   void TakeStates() {
     for (XMLElement* const state : ChildrenOf("state")) {
-      const char* const of = state->Attribute("world_name");
-      const char* const own = world_->Attribute("name");
-      if (of == nullptr || own == nullptr || std::string_view(of) == own) TakeState(*state);
-      world_->DeleteChild(state);
-    }
-  }
-
-  void TakeState(XMLElement& state) {
-    has_state_ = true;
-    Warn("the <state> of the world is not saved: joints start at their initial positions",
-         original_.source);
-    if (auto* const insertions = state.FirstChildElement("insertions")) {
-      XMLElement* next = nullptr;
-      for (auto* child = insertions->FirstChildElement(); child != nullptr; child = next) {
-        next = child->NextSiblingElement();
-        const std::string_view kind = child->Name();
-        if (kind == "model" || kind == "light") world_->InsertEndChild(child);
+      if (IsStateOf(*world_, *state)) {
+        has_state_ = true;
+        Warn("the <state> of the world is not saved: joints start at their initial positions",
+             original_.source);
+        TakeInsertions(*state, *world_);
+        AddDeletions(*state, deleted_);
       }
-    }
-    const auto* const deletions = state.FirstChildElement("deletions");
-    if (deletions == nullptr) return;
-    for (auto* name = deletions->FirstChildElement("name"); name != nullptr;
-         name = name->NextSiblingElement("name")) {
-      if (name->GetText() != nullptr) deleted_.insert(name->GetText());
+      world_->DeleteChild(state);
     }
   }
 

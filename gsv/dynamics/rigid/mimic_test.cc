@@ -33,6 +33,15 @@ std::shared_ptr<model::Model> Fingers(const model::Mimic& mimic) {
   return model;
 }
 
+// A robot with the same fingers, whose base is not fixed.
+std::shared_ptr<model::Model> PlanarFingers(const model::Mimic& mimic) {
+  auto model = Fingers(mimic);
+  model->joints.erase(model->joints.begin());
+  model->joints[1].mimic->leader = 0;
+  model->drive = model::Drive{};
+  return model;
+}
+
 TEST(Mimic, AJointFollowsItsLeader) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("gripper", Fingers({1, -1.5, 0.2, 0.1}), At(0, 0, 1));
@@ -77,10 +86,7 @@ TEST(Mimic, LeaderAcceleratesTheInertiaOfItsFollower) {
 }
 
 TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {
-  auto model = Fingers({1, -1, 0, 0});
-  model->joints.erase(model->joints.begin());
-  model->joints[1].mimic->leader = 0;
-  model->drive = model::Drive{};
+  auto model = PlanarFingers({1, -1, 0, 0});
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", model, {});
   ASSERT_TRUE(world.Start());
@@ -91,10 +97,7 @@ TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {
 }
 
 TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeaderWithoutACommand) {
-  auto model = Fingers({.leader = 0, .multiplier = -1, .offset = 0.3});
-  model->joints.erase(model->joints.begin());
-  model->joints[1].mimic->leader = 0;
-  model->drive = model::Drive{};
+  auto model = PlanarFingers({.multiplier = -1, .offset = 0.3});
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", model, {});
   ASSERT_TRUE(world.Start());

@@ -73,36 +73,50 @@ double Displacement(const model::Joint& joint, const Pose& joint_from_moved) {
 
 }  // namespace
 
+bool IsStateOf(const XMLElement& world, const XMLElement& state) {
+  const char* const of = state.Attribute("world_name");
+  const char* const name = world.Attribute("name");
+  return of == nullptr || name == nullptr || std::strcmp(of, name) == 0;
+}
+
+void TakeInsertions(XMLElement& state, XMLElement& world) {
+  auto* const insertions = state.FirstChildElement("insertions");
+  if (insertions == nullptr) return;
+  XMLElement* next = nullptr;
+  for (auto* child = insertions->FirstChildElement(); child != nullptr; child = next) {
+    next = child->NextSiblingElement();
+    if (std::strcmp(child->Name(), "model") == 0 || std::strcmp(child->Name(), "light") == 0) {
+      world.InsertEndChild(child);
+    }
+  }
+}
+
+void AddDeletions(const XMLElement& state, std::set<std::string>& names) {
+  const auto* const deletions = state.FirstChildElement("deletions");
+  if (deletions == nullptr) return;
+  for (auto* name = deletions->FirstChildElement("name"); name != nullptr;
+       name = name->NextSiblingElement("name")) {
+    if (name->GetText() != nullptr) names.insert(name->GetText());
+  }
+}
+
 void WorldState::Read(XMLElement& world, const ReadingContext& context) {
   while (auto* state = world.FirstChildElement("state")) {
-    const char* of = state->Attribute("world_name");
-    const char* name = world.Attribute("name");
-    if (of != nullptr && name != nullptr && std::strcmp(of, name) != 0) {
-      context.Warn("the <state> is one of the world \"" + std::string(of) +
+    if (IsStateOf(world, *state)) {
+      ReadState(*state, world, context);
+    } else {
+      context.Warn("the <state> is one of the world \"" +
+                       std::string(state->Attribute("world_name")) +
                        "\", not of this one; it is ignored",
                    PlaceOf(context.source, *state));
-    } else {
-      ReadState(*state, world, context);
     }
     world.DeleteChild(state);
   }
 }
 
 void WorldState::ReadState(XMLElement& state, XMLElement& world, const ReadingContext& context) {
-  if (auto* insertions = state.FirstChildElement("insertions")) {
-    XMLElement* next = nullptr;
-    for (auto* child = insertions->FirstChildElement(); child != nullptr; child = next) {
-      next = child->NextSiblingElement();
-      if (std::strcmp(child->Name(), "model") == 0 || std::strcmp(child->Name(), "light") == 0) {
-        world.InsertEndChild(child);
-      }
-    }
-  }
-  if (const auto* deletions = state.FirstChildElement("deletions")) {
-    ForEachChild(*deletions, "name", "name", [&](const XMLElement& name) {
-      if (name.GetText() != nullptr) deleted_.insert(name.GetText());
-    });
-  }
+  TakeInsertions(state, world);
+  AddDeletions(state, deleted_);
   ForEachChild(state, "model", "model_state", [&](const XMLElement& model) {
     ModelState& saved = models_[NameAttribute(model)];
     saved.place = PlaceOf(context.source, model);

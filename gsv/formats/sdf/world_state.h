@@ -18,6 +18,13 @@
 
 namespace gsv::formats {
 
+// Whether a <state> is one of this <world>, and not of a world with another name.
+bool IsStateOf(const tinyxml2::XMLElement& world, const tinyxml2::XMLElement& state);
+// Moves the models and lights that a <state> inserts to the end of the <world>.
+void TakeInsertions(tinyxml2::XMLElement& state, tinyxml2::XMLElement& world);
+// Adds the names of the models and lights that a <state> deletes.
+void AddDeletions(const tinyxml2::XMLElement& state, std::set<std::string>& names);
+
 // The <state> of a world, as Gazebo Classic saves it.
 class WorldState {
  public:
